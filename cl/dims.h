@@ -1,0 +1,16 @@
+// Named dimensions of the random function. Every path vertex owns a fixed stride of four-number draws, so
+// that an effect that is compiled out never shifts the numbers of another.
+#ifndef CAUSTICL_DIMS_H
+#define CAUSTICL_DIMS_H
+
+#define DIM_FILM 0u          // position in the pixel (xy), lens (zw)
+#define DIM_EMITTER 1u       // which emitter (x), point on it (yz)
+#define DIM_EMISSION 2u      // direction (xy)
+#define DIM_BOUNCE_FIRST 8u  // first dimension of vertex 0
+#define DIM_BOUNCE_STRIDE 8u
+
+#define DIM_BSDF 0u        // direction (xy), lobe (z), Russian roulette (w)
+#define DIM_LIGHT 1u       // which emitter (x), point on it (yz)
+#define DIM_QUANTISE 2u    // dithering of stored flux (xyz)
+
+#endif

@@ -1,0 +1,21 @@
+// The effects that a scene can call for: one bit each, seen by the host's analysis and by the kernels.
+// EFFECTS is prepended to every program as one #define; kernels ask `if (HAS(EFFECT_GLASS))`, never #if, so
+// that every branch is type-checked in every build and the compiler removes what no scene object needs.
+#ifndef CAUSTICL_EFFECTS_H
+#define CAUSTICL_EFFECTS_H
+
+#define EFFECT_TRIANGLES (1u << 0)   // meshes, rectangles, boxes
+#define EFFECT_SPHERES (1u << 1)
+#define EFFECT_PLANES (1u << 2)
+#define EFFECT_DISKS (1u << 3)
+#define EFFECT_BEZIER (1u << 4)      // revolved Bezier curves
+#define EFFECT_TEXTURES (1u << 5)
+#define EFFECT_MIRROR (1u << 6)
+#define EFFECT_GLASS (1u << 7)
+#define EFFECT_LENS (1u << 8)        // a lens of non-zero radius
+#define EFFECT_SHADOW_RAYS (1u << 9) // direct light by shadow rays
+
+#define EFFECT_ALL ((1u << 10) - 1u)
+
+#define HAS(effect) ((EFFECTS & (effect)) != 0u)
+#endif

@@ -1,0 +1,113 @@
+// Every struct that the host and the kernels share, compiled by C++20 and by OpenCL C alike.
+//
+// Only scalars, float2/float4 and uint2/uint4 appear here: float3, bool, size_t, pointers and enums have
+// sizes that differ between the two languages. CHECK_SIZE stops either compiler when a layout drifts, and a
+// test compares the offset of every field as the device sees it with offsetof on the host.
+#ifndef CAUSTICL_TYPES_H
+#define CAUSTICL_TYPES_H
+
+#ifdef __OPENCL_VERSION__
+#define CHECK_SIZE(type, size) typedef char type##_has_size_##size[(sizeof(type) == (size)) ? 1 : -1]
+#else
+#include <cstdint>
+namespace causticl {
+using uint = std::uint32_t;
+using ulong = std::uint64_t;
+struct alignas(8) float2 {
+  float x = 0, y = 0;
+};
+struct alignas(16) float4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+struct alignas(8) uint2 {
+  uint x = 0, y = 0;
+};
+struct alignas(16) uint4 {
+  uint x = 0, y = 0, z = 0, w = 0;
+};
+#define CHECK_SIZE(type, size) static_assert(sizeof(type) == (size), #type " must have the device's layout")
+#endif
+
+// The thin lens, one form for both cameras of the scene format. A ray through film position (u, v) in
+// [0,1]^2, v from the bottom, has D = axis + right (u - 1/2) + up (v - 1/2).
+typedef struct {
+  float4 origin;      // xyz; w: plane_distance, where along D the ray starts
+  float4 axis;        // unit viewing direction; w: focal_distance
+  float4 right;       // full width of the film at distance 1; w: aperture, the lens radius
+  float4 up;          // full height of the film at distance 1; w: 1 if the focus is a plane, 0 if a sphere
+  float4 lens_right;  // unit axes of the lens disc
+  float4 lens_up;
+} Camera;
+CHECK_SIZE(Camera, 96);
+
+#define MATERIAL_DIFFUSE 0u
+#define MATERIAL_MIRROR 1u
+#define MATERIAL_GLASS 2u
+
+#define MATERIAL_TWO_SIDED 1u      // emits on both sides
+#define MATERIAL_ALPHA_DIFFUSE 2u  // texels with alpha > 0 are diffuse, whatever `kind` says (base format)
+
+typedef struct {
+  float4 color;        // reflectance; w: index of refraction inside / outside
+  float4 emission;     // emitted radiance
+  uint kind;           // MATERIAL_DIFFUSE ...
+  uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE
+  uint color_texture;  // 1 + index into textures, 0 for none: then replaces `color`
+  uint unused;
+} Material;
+CHECK_SIZE(Material, 48);
+
+#define TEXTURE_IMAGE 0u
+#define TEXTURE_CHECKER 1u
+
+typedef struct {
+  float4 a, b;        // checker: the two colours
+  float2 scale;       // multiplies (u, v) before the lookup
+  uint kind;          // TEXTURE_IMAGE ...
+  uint bilinear;      // 0 nearest, 1 bilinear
+  uint first_texel;   // into the texel buffer: four halfs a texel, linear RGB and alpha, bottom row first
+  uint width, height; // texels
+  uint unused;
+} Texture;
+CHECK_SIZE(Texture, 64);
+
+// What is not a triangle. Rectangles and boxes become triangles on upload.
+#define SHAPE_SPHERE 0u
+#define SHAPE_PLANE 1u
+#define SHAPE_DISK 2u
+#define SHAPE_BEZIER 3u
+
+typedef struct {
+  float4 sphere;       // SHAPE_SPHERE: centre and radius
+  float4 to_world[3];  // rows of the affine map from local space (disk: unit disc in z = 0)
+  float4 to_local[3];  // rows of its inverse
+  uint type;           // SHAPE_SPHERE ...
+  uint material;
+  uint curve;          // SHAPE_BEZIER: first float of its data in the curve buffer
+  uint degree;         // SHAPE_BEZIER: degree of the curve
+} Shape;
+CHECK_SIZE(Shape, 128);
+
+#define EMITTER_TRIANGLE 0u
+#define EMITTER_SPHERE 1u
+#define EMITTER_DISK 2u
+#define EMITTER_BEZIER 3u
+
+// One light-emitting primitive. Emitters are chosen with probability proportional to their power's largest
+// channel; `cdf` is the inclusive running sum of those probabilities, the last one exactly 1.
+typedef struct {
+  float4 a, b, c;   // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes
+  float4 radiance;  // w: area
+  float cdf, probability;
+  uint type;        // EMITTER_TRIANGLE ...
+  uint two_sided;
+  uint shape;       // EMITTER_BEZIER: index into shapes
+  uint first_area;  // EMITTER_BEZIER: first float of its area table in the curve buffer
+  uint unused[2];
+} Emitter;
+CHECK_SIZE(Emitter, 96);
+
+#ifndef __OPENCL_VERSION__
+}  // namespace causticl
+#endif
+#endif

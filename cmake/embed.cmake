@@ -1,0 +1,11 @@
+# Writes OUTPUT: a C++ source that holds every kernel file of DIR as a string, in name order.
+file(GLOB files RELATIVE ${DIR} ${DIR}/*.cl ${DIR}/*.h)
+list(SORT files)
+set(text "#include \"kernel_sources.hpp\"\n\nnamespace causticl {\n\nconst std::map<std::string, std::string>& embedded_kernel_sources() {\n  static const std::map<std::string, std::string> sources{\n")
+foreach(file ${files})
+  file(READ ${DIR}/${file} body)
+  string(APPEND text "      {\"${file}\", R\"__cl__(${body})__cl__\"},\n")
+endforeach()
+string(APPEND text "  };\n  return sources;\n}\n\n}  // namespace causticl\n")
+file(WRITE ${OUTPUT}.new "${text}")
+file(RENAME ${OUTPUT}.new ${OUTPUT})

@@ -1,0 +1,41 @@
+// Images: decoding textures, and writing what was rendered.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace causticl {
+
+/// A decoded texture: linear RGB and alpha as floats, four a texel, BOTTOM row first.
+struct Image {
+  std::string file;
+  int width = 0, height = 0;
+  std::vector<float> rgba;
+};
+
+/// Reads PNG, JPEG, BMP, TGA, HDR (stb_image) or EXR. `srgb` decodes 8-bit values by the sRGB curve;
+/// otherwise they are value/255. Throws UserError naming the file and the fault.
+Image read_image(const std::string& file, bool srgb);
+
+/// A rendered picture: linear RGB, three floats a pixel, TOP row first.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+/// Text attributes for formats that can hold them (EXR).
+using Metadata = std::map<std::string, std::string>;
+
+/// Throws UserError if `file` has no extension that write_picture knows (.png, .exr, .pfm) or if its folder
+/// does not exist or cannot be written, so that this is known before hours of rendering.
+void check_output(const std::string& file);
+
+/// Writes by extension: PNG (clamp to [0,1], power 1/2.2, 8 bit), EXR (float, with metadata), PFM. Writes to
+/// a temporary name in the same folder, then renames. Throws UserError.
+void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata);
+
+/// Reads .pfm or .exr back as linear RGB. Throws UserError.
+Picture read_picture(const std::string& file);
+
+}  // namespace causticl

@@ -1,0 +1,61 @@
+#include "kernel_sources.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "error.hpp"
+
+namespace causticl {
+namespace {
+
+std::string read_source(const std::string& name, const std::string& kernel_dir) {
+  if (kernel_dir.empty()) {
+    const auto found = embedded_kernel_sources().find(name);
+    if (found == embedded_kernel_sources().end()) throw UserError("kernel source " + name + ": no such file");
+    return found->second;
+  }
+  const auto path = std::filesystem::path(kernel_dir) / name;
+  std::ifstream in(path);
+  if (!in)
+    throw UserError("--kernel-dir: cannot read " + path.string() + "; expected a copy of the folder cl/");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void append_flat(std::string& out, const std::string& name, const std::string& text,
+                 const std::string& kernel_dir, std::set<std::string>& seen) {
+  std::istringstream in(text);
+  std::string line;
+  out += "#line 1 \"" + name + "\"\n";
+  for (int number = 1; std::getline(in, line); ++number) {
+    constexpr const char* directive = "#include \"";
+    const auto end = line.rfind('"');
+    if (line.rfind(directive, 0) != 0 || end < 10) {
+      out += line + "\n";
+      continue;
+    }
+    const std::string included = line.substr(10, end - 10);
+    if (seen.insert(included).second)
+      append_flat(out, included, read_source(included, kernel_dir), kernel_dir, seen);
+    out += "#line " + std::to_string(number + 1) + " \"" + name + "\"\n";
+  }
+}
+
+}  // namespace
+
+std::string flatten_kernel_source(const std::string& file, const std::string& kernel_dir) {
+  std::string out;
+  std::set<std::string> seen{file};
+  append_flat(out, file, read_source(file, kernel_dir), kernel_dir, seen);
+  return out;
+}
+
+std::string flatten_kernel_text(const std::string& text, const std::string& kernel_dir) {
+  std::string out;
+  std::set<std::string> seen;
+  append_flat(out, "inline", text, kernel_dir, seen);
+  return out;
+}
+
+}  // namespace causticl

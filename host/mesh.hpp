@@ -1,0 +1,32 @@
+// Triangle meshes from OBJ and PLY files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace causticl {
+
+constexpr std::uint32_t no_index = 0xffffffffu;
+
+/// An indexed triangle mesh. Corner c of triangle t is position[position_index[t][c]], and so on; an index of
+/// no_index says that the corner has no normal or no (u, v).
+struct Mesh {
+  std::string file;
+  std::vector<std::array<float, 3>> positions, normals;
+  std::vector<std::array<float, 2>> uvs;
+  std::vector<std::array<std::uint32_t, 3>> position_index, normal_index, uv_index;  // one per triangle
+
+  std::size_t triangles() const { return position_index.size(); }
+};
+
+/// Reads .obj or .ply (ASCII, binary of either byte order). Polygons are triangulated. Throws UserError with
+/// the file, the line (or element of a binary file) and the fault.
+Mesh read_mesh(const std::string& file);
+
+/// Fills in vertex normals (area- and angle-weighted averages over shared positions) for corners that have
+/// none.
+void add_missing_normals(Mesh& mesh);
+
+}  // namespace causticl

@@ -1,0 +1,112 @@
+// What a scene file says, as plain data: the input of everything that follows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image.hpp"
+#include "mesh.hpp"
+#include "vec.hpp"
+
+namespace causticl {
+
+using Color = Vec3;  // linear RGB
+
+struct TextureSpec {
+  enum class Kind { image, checker };
+  Kind kind = Kind::image;
+  int image = -1;  // index into Scene::images
+  bool bilinear = false;
+  std::array<double, 2> scale{1, 1};  // multiplies (u, v) before the lookup
+  Color a, b;                         // checker: the colours of even and odd cells
+};
+
+struct MaterialSpec {
+  enum class Kind { diffuse, mirror, glass };
+  Kind kind = Kind::diffuse;
+  Color color{1, 1, 1};
+  int color_texture = -1;      // index into Scene::textures; replaces `color`
+  bool alpha_diffuse = false;  // base format: texels with alpha > 0 are diffuse whatever `kind` says
+  Color emission;              // radiance
+  bool two_sided = false;      // emits on both sides
+  double ior = 1.5;            // glass: the index inside; Scene::outside_ior is around it
+};
+
+struct Object {
+  enum class Shape { sphere, plane, rectangle, disk, box, mesh, bezier };
+  Shape shape = Shape::sphere;
+  std::string pointer;  // JSON pointer, "/objects/3"; "/renderer" for the disc light
+  Transform transform;  // local to world
+  int material = 0;     // index into Scene::materials
+  double radius = 1;    // sphere, disk: in local units
+  Vec3 size{1, 1, 1};   // box: edge lengths, centred on the local origin
+  int mesh = -1;        // index into Scene::meshes
+  bool smooth = true;   // mesh: use the file's vertex normals, or averaged ones where it has none
+  std::vector<std::array<double, 2>> points;  // bezier: control points (radius, height)
+  bool is_disc_light = false;                 // comes from renderer.light_pos
+};
+
+struct CameraSpec {
+  // Both camera forms of the file are brought to the thin lens of cl/types.h by camera_from_scene (upload).
+  Vec3 origin;
+  Vec3 axis{0, 0, -1};  // unit
+  Vec3 right, up;       // full film extent at distance 1 along the axis
+  double plane_distance = 0;
+  double focal_distance = 1;
+  double aperture = 0;     // lens radius
+  bool flat_focus = true;  // the focus is a plane (position/target form) or a sphere (origin/direct form)
+};
+
+enum class Integrator { sppm, pt };
+enum class Schedule { pixel, global, geometric };
+enum class DirectLight { shadow_rays, photons };
+
+struct RendererSpec {
+  Integrator integrator = Integrator::sppm;
+  int samples = 64;               // pt: samples per pixel
+  int visible_points = 4;         // sppm: per pixel per pass
+  std::int64_t photons = 250000;  // sppm: per pass
+  int passes = 64;                // sppm
+  std::optional<double> radius;   // first search radius; chosen from the scene where absent
+  double alpha = 0.7;
+  double radius_decay = 0.95;  // Schedule::geometric
+  Schedule schedule = Schedule::pixel;
+  DirectLight direct_light = DirectLight::shadow_rays;  // key "direct_light": "shadow_rays" | "photons"
+};
+
+struct Scene {
+  std::string file;
+  std::string output;  // key `path`; empty where absent
+  int width = 640, height = 480;
+  int max_depth = 16;
+  double outside_ior = 1;  // key `Na`
+  RendererSpec renderer;
+  CameraSpec camera;
+  std::vector<Object> objects;
+  std::vector<MaterialSpec> materials;
+  std::vector<TextureSpec> textures;
+  std::vector<Image> images;
+  std::vector<Mesh> meshes;
+  std::vector<std::string> notices;  // what the user should know: ignored keys, fallbacks
+};
+
+/// A `-D key=value` of the command line: `key` is a path of JSON keys joined by dots ("renderer.radius",
+/// "objects.3.radius"), `value` is JSON, or a string where it is not.
+struct Override {
+  std::string key, value;
+};
+
+struct SceneOptions {
+  std::vector<Override> overrides;          // applied before anything is read
+  std::optional<std::pair<int, int>> size;  // --size
+  std::optional<Integrator> integrator;     // --integrator: refuses or allows what the file holds
+};
+
+/// Loads a scene file with everything it names (meshes, images). Throws UserError with the file, the line,
+/// the JSON pointer and what was expected.
+Scene load_scene(const std::string& file, const SceneOptions& options = {});
+
+}  // namespace causticl

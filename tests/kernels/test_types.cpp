@@ -1,0 +1,75 @@
+// The layout of every shared struct, as the device sees it and as the host does.
+#include <cstddef>
+
+#include "device_fixture.hpp"
+
+using namespace causticl;
+
+namespace {
+
+struct Field {
+  const char* type;
+  const char* name;
+  std::size_t offset;
+};
+
+#define FIELD(type, name) \
+  { #type, #name, offsetof(type, name) }
+const std::vector<Field> fields{
+    FIELD(Camera, origin),
+    FIELD(Camera, axis),
+    FIELD(Camera, right),
+    FIELD(Camera, up),
+    FIELD(Camera, lens_right),
+    FIELD(Camera, lens_up),
+    FIELD(Material, color),
+    FIELD(Material, emission),
+    FIELD(Material, kind),
+    FIELD(Material, flags),
+    FIELD(Material, color_texture),
+    FIELD(Texture, a),
+    FIELD(Texture, b),
+    FIELD(Texture, scale),
+    FIELD(Texture, kind),
+    FIELD(Texture, bilinear),
+    FIELD(Texture, first_texel),
+    FIELD(Texture, width),
+    FIELD(Texture, height),
+    FIELD(Shape, sphere),
+    FIELD(Shape, to_world),
+    FIELD(Shape, to_local),
+    FIELD(Shape, type),
+    FIELD(Shape, material),
+    FIELD(Shape, curve),
+    FIELD(Shape, degree),
+    FIELD(Emitter, a),
+    FIELD(Emitter, b),
+    FIELD(Emitter, c),
+    FIELD(Emitter, radiance),
+    FIELD(Emitter, cdf),
+    FIELD(Emitter, probability),
+    FIELD(Emitter, type),
+    FIELD(Emitter, two_sided),
+    FIELD(Emitter, shape),
+    FIELD(Emitter, first_area),
+};
+
+}  // namespace
+
+TEST_CASE("shared structs have the same layout on the host and on the device") {
+  std::string text = "#include \"types.h\"\nkernel void offsets(global uint *out) {\n";
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    text += "  { global " + std::string(fields[i].type) + " *p = 0; out[" + std::to_string(i) +
+            "] = (uint)(size_t)&p->" + fields[i].name + "; }\n";
+  text += "}\n";
+  auto program = build_test_program(text);
+  auto out = test_device().buffer(fields.size() * sizeof(uint), "offsets");
+  cl::Kernel kernel(program, "offsets");
+  kernel.setArg(0, out);
+  test_device().launch(kernel, 1, 1);
+  const auto offsets = test_device().download<uint>(out, fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    INFO(fields[i].type << "." << fields[i].name);
+    CHECK(offsets[i] == fields[i].offset);
+  }
+}
