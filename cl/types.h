@@ -85,13 +85,19 @@ typedef struct {
   uint material;
   uint curve;          // SHAPE_BEZIER: first float of its data in the curve buffer
   uint degree;         // SHAPE_BEZIER: degree of the curve
+  uint area_table;     // emissive SHAPE_BEZIER: first of EMITTER_AREA_STEPS floats in the curve buffer
+  float area;          // emissive shapes: world area
+  uint unused[2];
 } Shape;
-CHECK_SIZE(Shape, 128);
+CHECK_SIZE(Shape, 144);
 
 #define EMITTER_TRIANGLE 0u
 #define EMITTER_SPHERE 1u
 #define EMITTER_DISK 2u
 #define EMITTER_BEZIER 3u
+
+// Steps in t of the table of cumulative area by which points on a revolved curve are drawn.
+#define EMITTER_AREA_STEPS 64u
 
 // One light-emitting primitive. Emitters are chosen with probability proportional to their power's largest
 // channel; `cdf` is the inclusive running sum of those probabilities, the last one exactly 1.
@@ -106,6 +112,83 @@ typedef struct {
   uint unused[2];
 } Emitter;
 CHECK_SIZE(Emitter, 96);
+
+// Every emitter's points are drawn with the same density per area and unit of radiance:
+// largest channel of radiance * emitter_density (times two where both sides emit).
+typedef struct {
+  Camera camera;
+  uint width, height;        // pixels of the picture
+  uint first_pixel;          // the chunk that this launch works on: pixels [first_pixel, first_pixel +
+  uint pixel_count;          //   pixel_count) in row order from the top left
+  uint seed, pass;
+  uint visible_points;       // per pixel per pass; a square number is stratified
+  uint max_depth;            // longest path in scattering surface hits
+  uint plane_count;          // infinite planes, the first of the shapes
+  uint emitter_count;
+  float emitter_density;     // 1 / sum of area * sides * largest channel of radiance; 0 without emitters
+  float photon_flux;         // flux of the largest channel of one emitted photon
+  uint photon_count;         // emitted in a pass
+  uint photon_capacity;      // stored at most
+  float alpha;               // share of the new photons that the radius update keeps
+  float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
+} Params;
+CHECK_SIZE(Params, 160);
+
+// What SPPM keeps of a pixel between passes besides the film: its squared radius as an unevaluated sum
+// hi + lo, and the number of all photons found so far, as two halves. N of the paper is alpha times that.
+typedef struct {
+  float radius2_hi, radius2_lo;
+  uint photons_low, photons_high;
+} SppmPixel;
+CHECK_SIZE(SppmPixel, 16);
+
+// A pixel's sum of radiance estimates, one per pass, each channel as an unevaluated sum hi + lo.
+typedef struct {
+  float sum[3];
+  float low[3];
+} FilmPixel;
+CHECK_SIZE(FilmPixel, 24);
+
+// Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
+// found around the point it is reflected radiance at the camera. A path that met none has weight 0.
+typedef struct {
+  float position[3];
+  uint normal;         // normal_pack, facing the camera path
+  float weight[3];
+  float radiance[3];   // emission seen by the path and direct light by shadow rays
+} VisiblePoint;
+CHECK_SIZE(VisiblePoint, 40);
+
+// A photon that landed on a diffuse surface, as traced. Flux is quantised with unbiased dithering in units of
+// Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
+#define PHOTON_FLUX_UNIT 16384.0f
+typedef struct {
+  float position[3];
+  uint normal;         // normal_pack, facing the side that the photon came from
+  uint flux_rg;        // red in the low 16 bits, green in the high ones
+  uint flux_b;
+} Photon;
+CHECK_SIZE(Photon, 24);
+#define PHOTON_WORDS 6u
+
+// The grid of photons: space is cut into cubes of `cell` units; cube (i, j, k) owns bucket
+// (i mod nx, j mod ny, k mod nz). A box of at most n cubes along each axis meets each bucket once, so nothing
+// is ever gathered twice, whatever the table's size.
+typedef struct {
+  float4 origin;       // of the cube (0, 0, 0); w: 1 / cell
+  uint nx, ny, nz;
+  uint photon_count;   // stored photons
+} Grid;
+CHECK_SIZE(Grid, 32);
+
+// Counts that kernels add to; each wraps at 2^32 and is read as differences.
+typedef struct {
+  uint photons;        // stored, or wanted where that is above Params.photon_capacity
+  uint rays;           // traced, shadow rays included
+  uint non_finite;     // samples that were NaN or Inf and were left out
+  uint saturated;      // photons whose flux was above what the record holds
+} Counters;
+CHECK_SIZE(Counters, 16);
 
 #ifndef __OPENCL_VERSION__
 }  // namespace causticl

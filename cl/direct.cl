@@ -1,0 +1,24 @@
+// Direct light at a diffuse point by one shadow ray.
+#include "light.cl"
+
+// Reflected radiance from one emitter at a Lambert point (`reflectance` = albedo / pi) with facing normal n.
+// `arriving` is the direction of the path that found the point. With `weigh_bsdf`, the sample is weighted
+// against BSDF sampling by the power heuristic (Veach 1997, 9.2). Adds the rays that it traced to *rays.
+static real3 direct_light(const Scene *scene, const Surface *surface, real3 arriving, real3 n, real3 reflectance,
+                          real4 random, bool weigh_bsdf, uint *rays) {
+  LightSample light = light_sample(scene, surface->position, random);
+  real cosine = dot(light.direction, n);
+  real3 g = surface->geometric_normal;
+  // The true surface must be seen from the same side by the light and by the path.
+  bool same_side = dot(light.direction, g) * dot(arriving, g) < 0;
+  if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
+  Ray shadow = {offset_origin(surface->position, surface->error, g, light.direction), light.direction};
+  ++*rays;
+  if (geometry_occluded(&scene->geometry, shadow, light.distance - light.margin)) return (real3)(0, 0, 0);
+  real weight = 1;
+  if (weigh_bsdf) {
+    real bsdf_pdf = cosine * INV_PI;
+    weight = light.pdf * light.pdf / (light.pdf * light.pdf + bsdf_pdf * bsdf_pdf);
+  }
+  return reflectance * light.weight * (cosine * weight);
+}

@@ -1,0 +1,36 @@
+// The photon grid: which bucket a point belongs to. See Grid in types.h.
+#include "prelude.cl"
+#include "types.h"
+
+// The cube that holds coordinate x along one axis. Both the sort and the gather call this, and it must round
+// alike in both: hence no contraction, and one function.
+INLINE int grid_coordinate(float x, float origin, float inverse_cell) {
+  return convert_int_sat_rtn((x - origin) * inverse_cell);
+}
+
+// x modulo n in [0, n) for any int x.
+INLINE uint grid_wrap(int x, uint n) {
+  int r = x % (int)n;
+  return (uint)(r < 0 ? r + (int)n : r);
+}
+
+INLINE uint grid_bucket(Grid grid, float3 p) {
+  uint i = grid_wrap(grid_coordinate(p.x, grid.origin.x, grid.origin.w), grid.nx);
+  uint j = grid_wrap(grid_coordinate(p.y, grid.origin.y, grid.origin.w), grid.ny);
+  uint k = grid_wrap(grid_coordinate(p.z, grid.origin.z, grid.origin.w), grid.nz);
+  return (k * grid.ny + j) * grid.nx + i;
+}
+
+// A unit normal in 24 bits, eight a component. Coarse, and enough to tell the sides of a surface and the
+// walls of a corner apart, which is all that it is compared for.
+INLINE uint normal_pack(real3 n) {
+  int3 q = convert_int3_rte(convert_float3(n) * 127.0f);
+  return ((uint)q.x & 0xffu) | ((uint)q.y & 0xffu) << 8 | ((uint)q.z & 0xffu) << 16;
+}
+INLINE float3 normal_unpack(uint packed) {
+  int3 q = (int3)((int)(packed << 24) >> 24, (int)(packed << 16) >> 24, (int)(packed << 8) >> 24);
+  return convert_float3(q) * (1.0f / 127.0f);
+}
+
+// Distance between the six arrays of the sorted photons: room to read eight at a time past the last.
+INLINE uint photon_stride(uint photon_count) { return (photon_count + 15u) & ~7u; }

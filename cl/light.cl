@@ -1,0 +1,174 @@
+// Emitters: choosing one, drawing a point on it, light arriving from it, photons leaving it.
+#include "scene.cl"
+
+// A light's contribution to a point: radiance / pdf, not yet multiplied by BSDF, cosine and visibility.
+typedef struct {
+  real3 direction;  // unit, from the lit point
+  real distance;
+  real3 weight;     // radiance / pdf; zero where nothing arrives
+  real pdf;         // per solid angle, the choice of emitter included
+  real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself
+} LightSample;
+
+// The first emitter whose cumulative probability exceeds u, and *rest: u rescaled to [0, 1) within it.
+INLINE uint emitter_choose(const Scene *scene, real u, real *rest) {
+  uint low = 0, high = scene->emitter_count - 1;
+  while (low < high) {
+    uint middle = (low + high) / 2;
+    if (u < scene->emitters[middle].cdf)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  real before = low == 0 ? (real)0 : (real)scene->emitters[low - 1].cdf;
+  real width = scene->emitters[low].cdf - before;
+  *rest = width > 0 ? clamp((u - before) / width, (real)0, (real)(1 - 6e-8f)) : (real)0;
+  return low;
+}
+
+// Density per area of points that emitter_point draws on this radiance, choice of emitter included.
+INLINE real emitter_area_pdf(const Scene *scene, real3 radiance, bool two_sided) {
+  return max_component(radiance) * (two_sided ? 2 : 1) * scene->emitter_density;
+}
+
+// Area-uniform in the curve's own space: which step of the table of cumulative area, then uniform in t within.
+// Returns t and *density, the probability density of t.
+INLINE real bezier_parameter(global const float *table, uint steps, real u, real *density) {
+  uint low = 0, high = steps - 1;
+  while (low < high) {
+    uint middle = (low + high) / 2;
+    if (u < table[middle])
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  real before = low == 0 ? (real)0 : (real)table[low - 1];
+  real share = table[low] - before;
+  *density = share * steps;
+  return (low + (share > 0 ? clamp((u - before) / share, (real)0, (real)1) : (real)0.5)) / steps;
+}
+
+INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) {
+  uint step = min((uint)(t * steps), steps - 1);
+  return (table[step] - (step == 0 ? 0 : table[step - 1])) * steps;
+}
+
+// A point on an emitter with its outward unit normal, *error as in Surface and *pdf per area given the emitter.
+INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, real2 u, real3 *normal, real *error,
+                           real *pdf) {
+  real3 a = convert_real3(emitter->a.xyz), b = convert_real3(emitter->b.xyz), c = convert_real3(emitter->c.xyz);
+  real3 point;
+  *pdf = 1 / (real)emitter->radiance.w;
+  if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
+    *normal = sphere_uniform(u);
+    point = a + emitter->a.w * *normal;
+  } else if (HAS(EFFECT_BEZIER) && emitter->type == EMITTER_BEZIER) {
+    global const Shape *shape = scene->geometry.shapes + emitter->shape;
+    real density, area;
+    real t = bezier_parameter(scene->geometry.curves + emitter->first_area, EMITTER_AREA_STEPS, u.x, &density);
+    bezier_point(shape, scene->geometry.curves, u.y, t, &point, normal, &area);
+    *pdf = area > 0 ? density / area : 0;
+  } else {
+    if (emitter->type == EMITTER_DISK) {
+      real2 d = disc_uniform(u);
+      point = a + d.x * b + d.y * c;
+    } else {
+      real2 d = triangle_uniform(u);
+      point = a + d.x * b + d.y * c;
+    }
+    *normal = normalize(cross(b, c));
+  }
+  real3 size = fabs(a) + fabs(b) + fabs(c) + fabs(point);
+  *error = GAMMA(8) * (max_component(size) + emitter->a.w);
+  return point;
+}
+
+// Light that may reach `position` from one emitter, chosen by power. A sphere seen from outside is sampled in
+// its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
+static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
+  LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), 0, 0};
+  real rest;
+  global const Emitter *emitter = scene->emitters + emitter_choose(scene, random.x, &rest);
+  real3 radiance = convert_real3(emitter->radiance.xyz);
+  if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
+    real3 to_centre = convert_real3(emitter->a.xyz) - position;
+    real radius = emitter->a.w, distance2 = dot(to_centre, to_centre);
+    if (distance2 > radius * radius * (real)1.0002f) {
+      real sine2 = radius * radius / distance2;
+      real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
+      sample.direction = cone_uniform(random.yz, to_centre / sqrt(distance2), one_minus_cos);
+      real along = dot(to_centre, sample.direction);
+      real3 miss = to_centre - along * sample.direction;
+      sample.distance = along - sqrt(max((real)0, radius * radius - dot(miss, miss)));
+      sample.pdf = emitter->probability / (2 * PI * one_minus_cos);
+      sample.margin = (real)1e-5f * (sample.distance + radius);
+      sample.weight = radiance / sample.pdf;
+      return sample;
+    }
+  }
+  real3 normal;
+  real error, area_pdf;
+  real3 point = emitter_point(scene, emitter, random.yz, &normal, &error, &area_pdf);
+  real3 to_light = point - position;
+  real distance2 = dot(to_light, to_light);
+  if (!(distance2 > 0) || !(area_pdf > 0)) return sample;
+  sample.distance = sqrt(distance2);
+  sample.direction = to_light / sample.distance;
+  sample.margin = (real)1e-5f * sample.distance + 4 * error;
+  real cosine = -dot(sample.direction, normal);
+  if (emitter->two_sided) cosine = fabs(cosine);
+  if (!(cosine > 0)) return sample;
+  sample.pdf = emitter->probability * area_pdf * distance2 / cosine;
+  sample.weight = radiance / sample.pdf;
+  return sample;
+}
+
+// The density per solid angle with which light_sample at `origin` draws the direction in which an emissive
+// surface was hit: the other half of multiple importance sampling. Zero for an infinite plane, which
+// light_sample never draws.
+static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit, const Surface *surface,
+                      global const Material *material) {
+  real3 radiance = convert_real3(material->emission.xyz);
+  bool two_sided = (material->flags & MATERIAL_TWO_SIDED) != 0;
+  real area_pdf = emitter_area_pdf(scene, radiance, two_sided);
+  if (hit.primitive != HIT_NONE && (hit.primitive & HIT_SHAPE)) {
+    global const Shape *shape = scene->geometry.shapes + (hit.primitive & ~HIT_SHAPE);
+    if (HAS(EFFECT_PLANES) && shape->type == SHAPE_PLANE) return 0;
+    if (HAS(EFFECT_SPHERES) && shape->type == SHAPE_SPHERE) {
+      real3 to_centre = convert_real3(shape->sphere.xyz) - origin;
+      real radius = shape->sphere.w, distance2 = dot(to_centre, to_centre);
+      if (distance2 > radius * radius * (real)1.0002f) {
+        real sine2 = radius * radius / distance2;
+        return area_pdf * 4 * PI * radius * radius / (2 * PI * (sine2 / (1 + sqrt(1 - sine2))));
+      }
+    }
+    if (HAS(EFFECT_BEZIER) && shape->type == SHAPE_BEZIER) {
+      real3 point, normal;
+      real area;
+      bezier_point(shape, scene->geometry.curves, hit.u, hit.v, &point, &normal, &area);
+      global const float *table = scene->geometry.curves + shape->area_table;
+      real total = shape->area;
+      area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, hit.v) / area : 0;
+    }
+  }
+  real cosine = fabs(dot(direction, surface->geometric_normal));
+  return cosine > 0 ? area_pdf * hit.t * hit.t / cosine : 0;
+}
+
+// Starts a photon: emitter by power, point by area, direction by cosine. Returns its ray; *flux is relative to
+// Params.photon_flux, its largest channel 1 (a bezier's varies about 1, since its points are not exactly
+// uniform).
+static Ray photon_emit(const Scene *scene, RandomStream stream, real3 *flux) {
+  real4 choice = random4(stream, DIM_EMITTER), direction = random4(stream, DIM_EMISSION);
+  real rest;
+  global const Emitter *emitter = scene->emitters + emitter_choose(scene, choice.x, &rest);
+  real3 normal, radiance = convert_real3(emitter->radiance.xyz);
+  real error, area_pdf;
+  real3 point = emitter_point(scene, emitter, choice.yz, &normal, &error, &area_pdf);
+  if (emitter->two_sided && choice.w < (real)0.5f) normal = -normal;
+  Ray ray;
+  ray.direction = hemisphere_cosine(direction.xy, normal);
+  ray.origin = offset_origin(point, error, normal, ray.direction);
+  *flux = area_pdf > 0 ? radiance / (max_component(radiance) * area_pdf * emitter->radiance.w) : (real3)(0, 0, 0);
+  return ray;
+}

@@ -1,0 +1,68 @@
+// Camera paths of SPPM: from the lens through mirrors and glass to the first diffuse surface.
+#include "camera.cl"
+#include "direct.cl"
+#include "grid.cl"
+
+// Paths longer than this many hits may end by Russian roulette.
+#define ROULETTE_DEPTH 5u
+
+// One visible point for each of visible_points samples of each pixel of the chunk, at index
+// (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
+// comes by a shadow ray where the program was built for that, else from photons.
+kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
+                         Params params) {
+  uint index = get_global_id(0);
+  if (index >= params.pixel_count * params.visible_points) return;
+  SCENE_INIT(params);
+  uint pixel = params.first_pixel + index / params.visible_points, sample = index % params.visible_points;
+  RandomStream stream = {params.seed * 2u, params.pass, pixel * params.visible_points + sample};
+
+  real4 film = random4(stream, DIM_FILM);
+  real2 position = (real2)(pixel % params.width, pixel / params.width) +
+                   camera_stratum(sample, params.visible_points, film.xy);
+  Ray ray = camera_ray(&params.camera, params.width, params.height, position, film.zw);
+
+  VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
+  real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
+  uint rays = 0;
+  for (uint depth = 0; depth <= params.max_depth; ++depth) {
+    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    ++rays;
+    if (!geometry_closest(&scene.geometry, ray, &hit)) break;
+    Surface surface;
+    geometry_surface(&scene.geometry, ray, hit, &surface);
+    global const Material *material = materials + surface.material;
+    radiance += throughput * emission_at(material, &surface, ray.direction);
+    if (depth == params.max_depth) break;
+
+    Bsdf bsdf = bsdf_at(material, textures, texels, surface.uv);
+    if (bsdf.kind == MATERIAL_DIFFUSE) {
+      real3 n = facing_normal(&surface, ray.direction);
+      real3 weight = throughput * bsdf.color * INV_PI;
+      if (!(max_component(weight) > 0)) break;
+      if (HAS(EFFECT_SHADOW_RAYS))
+        radiance += direct_light(&scene, &surface, ray.direction, n, weight, random_at(stream, depth, DIM_LIGHT), false,
+                                 &rays);
+      bool front = dot(surface.geometric_normal, ray.direction) < 0;
+      point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
+      vstore3(convert_float3(surface.position), 0, point.position);
+      vstore3(convert_float3(weight), 0, point.weight);
+      break;
+    }
+
+    real4 random = random_at(stream, depth, DIM_BSDF);
+    BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
+    throughput *= next.weight;
+    if (depth >= ROULETTE_DEPTH) {
+      real survival = fmin(max_component(throughput), (real)1);
+      if (random.w >= survival) break;
+      throughput /= survival;
+    }
+    if (!(max_component(throughput) > 0)) break;
+    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.direction = next.direction;
+  }
+  vstore3(convert_float3(radiance), 0, point.radiance);
+  visible_points[index] = point;
+  atomic_add(&counters->rays, rays);
+}

@@ -1,0 +1,53 @@
+// The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
+#include "gather.cl"
+#include "sppm.cl"
+
+// photon_counts[i] = photons within sqrt(params.radius2) of visible point i; COUNT_NOTHING where the path met no
+// diffuse surface. For choosing the first radius.
+#define COUNT_NOTHING 0xffffffffu
+kernel void count_around(global const VisiblePoint *visible_points, global const uint *starts,
+                         global const uint *sorted, global uint *photon_counts, Grid grid, Params params) {
+  uint i = get_global_id(0);
+  if (i >= params.pixel_count * params.visible_points) return;
+  VisiblePoint point = visible_points[i];
+  bool diffuse = point.weight[0] + point.weight[1] + point.weight[2] > 0;
+  photon_counts[i] = diffuse ? gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal),
+                                      params.radius2)
+                                   .count
+                             : COUNT_NOTHING;
+}
+
+// One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
+// the film; equations (8) and (9) update its radius. With params.radius2 > 0 that radius holds for all pixels.
+kernel void gather_photons(global const VisiblePoint *visible_points, global SppmPixel *pixels,
+                           global FilmPixel *film, global const uint *starts, global const uint *sorted,
+                           volatile global Counters *counters, Grid grid, Params params) {
+  uint i = get_global_id(0);
+  if (i >= params.pixel_count) return;
+  uint index = params.first_pixel + i;
+  SppmPixel pixel = pixels[index];
+  float radius2 = params.radius2 > 0 ? params.radius2 : pixel.radius2_hi;
+  real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0);
+  uint found = 0;
+  for (uint s = 0; s < params.visible_points; ++s) {
+    VisiblePoint point = visible_points[i * params.visible_points + s];
+    radiance += convert_real3(vload3(0, point.radiance));
+    real3 weight = convert_real3(vload3(0, point.weight));
+    if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
+    Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
+    reflected += weight * (real3)(sum.red, sum.green, sum.blue);
+    found += sum.count;
+  }
+  real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
+  film_add(film + index, (radiance + reflected * density) / params.visible_points, counters);
+  if (params.radius2 > 0) return;
+  pixels[index] = sppm_update(pixel, found, params.alpha);
+}
+
+// Every pixel's first radius.
+kernel void start_pixels(global SppmPixel *pixels, uint count, float radius2) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  SppmPixel pixel = {radius2, 0, 0, 0};
+  pixels[i] = pixel;
+}

@@ -1,0 +1,72 @@
+// Path tracing: light sampling and BSDF sampling combined by the power heuristic.
+#include "camera.cl"
+#include "direct.cl"
+#include "film.cl"
+
+// Paths longer than this many hits may end by Russian roulette.
+#define ROULETTE_DEPTH 5u
+
+// Radiance along one camera path. Paths scatter at most params.max_depth times.
+static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays) {
+  real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
+  real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
+  real3 last_position = ray.origin;
+  for (uint depth = 0; depth <= max_depth; ++depth) {
+    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    ++*rays;
+    if (!geometry_closest(&scene->geometry, ray, &hit)) break;
+    Surface surface;
+    geometry_surface(&scene->geometry, ray, hit, &surface);
+    global const Material *material = scene->materials + surface.material;
+
+    real3 emission = emission_at(material, &surface, ray.direction);
+    if (max_component(emission) > 0) {
+      real weight = 1;
+      if (bsdf_pdf > 0) {
+        real pdf = light_pdf(scene, last_position, ray.direction, hit, &surface, material);
+        weight = bsdf_pdf * bsdf_pdf / (bsdf_pdf * bsdf_pdf + pdf * pdf);
+      }
+      radiance += throughput * emission * weight;
+    }
+    if (depth == max_depth) break;
+
+    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+    if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
+      real3 n = facing_normal(&surface, ray.direction);
+      radiance += direct_light(scene, &surface, ray.direction, n, throughput * bsdf.color * INV_PI,
+                               random_at(stream, depth, DIM_LIGHT), true, rays);
+    }
+    real4 random = random_at(stream, depth, DIM_BSDF);
+    BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
+    throughput *= next.weight;
+    if (depth >= ROULETTE_DEPTH) {
+      real survival = fmin(max_component(throughput), (real)1);
+      if (random.w >= survival) break;
+      throughput /= survival;
+    }
+    if (!(max_component(throughput) > 0)) break;
+    bsdf_pdf = next.pdf;
+    last_position = surface.position;
+    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.direction = next.direction;
+  }
+  return radiance;
+}
+
+// Adds sample number params.pass, one a pixel of the chunk, to the film. Four consecutive samples stratify a
+// pixel 2 x 2.
+kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params) {
+  uint i = get_global_id(0);
+  if (i >= params.pixel_count) return;
+  SCENE_INIT(params);
+  uint pixel = params.first_pixel + i;
+  RandomStream stream = {params.seed * 2u, params.pass, pixel};
+  real4 numbers = random4(stream, DIM_FILM);
+  real2 position =
+      (real2)(pixel % params.width, pixel / params.width) + camera_stratum(params.pass % 4u, 4u, numbers.xy);
+  Ray ray = camera_ray(&params.camera, params.width, params.height, position, numbers.zw);
+  uint rays = 0;
+  real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays);
+  film_add(film + pixel, radiance, counters);
+  atomic_add(&counters->rays, rays);
+}

@@ -1,0 +1,73 @@
+// Photon paths: from an emitter through the scene, stored at every diffuse surface they land on.
+#include "direct.cl"
+#include "grid.cl"
+
+// Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
+INLINE uint flux_quantise(real flux, real random, bool *saturated) {
+  real units = flux * PHOTON_FLUX_UNIT + random;
+  *saturated = *saturated || units >= 65536;
+  return (uint)clamp(units, (real)0, (real)65535);
+}
+
+// Traces photon number get_global_id(0) of the pass. Photons are appended in any order; where the buffer is
+// full they are only counted, so that the host can enlarge it and trace the pass again.
+kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
+                          Params params) {
+  uint index = get_global_id(0);
+  if (index >= params.photon_count) return;
+  SCENE_INIT(params);
+  RandomStream stream = {params.seed * 2u + 1u, params.pass, index};
+
+  real3 flux;
+  Ray ray = photon_emit(&scene, stream, &flux);
+  uint rays = 0;
+  for (uint depth = 0; depth < params.max_depth; ++depth) {
+    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    ++rays;
+    if (!(max_component(flux) > 0) || !geometry_closest(&scene.geometry, ray, &hit)) break;
+    Surface surface;
+    geometry_surface(&scene.geometry, ray, hit, &surface);
+    Bsdf bsdf = bsdf_at(materials + surface.material, textures, texels, surface.uv);
+    real3 n = facing_normal(&surface, ray.direction);
+    real4 random = random_at(stream, depth, DIM_BSDF);
+
+    if (bsdf.kind == MATERIAL_DIFFUSE) {
+      if (!(max_component(bsdf.color) > 0)) break;
+      flux *= shading_normal_arrival(&surface, ray.direction, n);
+      // With shadow rays the light that arrives straight from an emitter is counted there.
+      if (!(HAS(EFFECT_SHADOW_RAYS) && depth == 0)) {
+        real4 dither = random_at(stream, depth, DIM_QUANTISE);
+        bool saturated = false;
+        uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
+             b = flux_quantise(flux.z, dither.z, &saturated);
+        if (saturated) atomic_inc(&counters->saturated);
+        if (isfinite(flux.x + flux.y + flux.z)) {
+          uint slot = atomic_inc(&counters->photons);
+          if (slot < params.photon_capacity) {
+            bool front = dot(surface.geometric_normal, ray.direction) < 0;
+            global Photon *photon = photons + slot;
+            vstore3(convert_float3(surface.position), 0, photon->position);
+            photon->normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
+            photon->flux_rg = r | g << 16;
+            photon->flux_b = b;
+          }
+        } else {
+          atomic_inc(&counters->non_finite);
+        }
+      }
+    }
+    if (depth + 1 == params.max_depth) break;
+
+    BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
+    if (bsdf.kind == MATERIAL_DIFFUSE) next.weight *= shading_normal_departure(&surface, next.direction, n);
+    // Absorption by Russian roulette: survivors keep the largest channel of their flux.
+    real before = max_component(flux);
+    flux *= next.weight;
+    real survival = fmin(max_component(flux) / before, (real)1);
+    if (random.w >= survival) break;
+    flux /= survival;
+    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.direction = next.direction;
+  }
+  atomic_add(&counters->rays, rays);
+}
