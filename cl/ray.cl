@@ -11,7 +11,7 @@ typedef struct {
 typedef struct {
   real t;
   uint primitive;  // HIT_NONE; HIT_SHAPE | index into shapes; else a triangle reference
-  real u, v;       // triangle: barycentric weights of vertices 1 and 2; bezier: angle / 2 pi and t; else unused
+  real u, v;       // triangle: barycentric weights of vertices 1 and 2; bezier: see bezier.cl; else unused
 } Hit;
 
 #define HIT_NONE 0xffffffffu

@@ -1,0 +1,16 @@
+// Ray and the unit disc of the local plane z = 0: an ellipse under a general to_world.
+#include "plane.cl"
+
+// The t > 0 where the ray meets the disc, below t_max, or INFINITY.
+INLINE real disk_intersect(global const Shape *shape, Ray ray, real t_max) {
+  real t = plane_intersect(shape, ray, t_max);
+  if (!(t < t_max)) return INFINITY;
+  real3 p = transform_point(shape->to_local, fma((real3)(t), ray.direction, ray.origin));
+  return p.x * p.x + p.y * p.y <= 1 ? t : (real)INFINITY;
+}
+
+// uv: local x and y, [-1, 1] mapped to [0, 1].
+INLINE void disk_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
+  plane_position(shape, ray, hit, surface);
+  surface->uv = transform_point(shape->to_local, surface->position).xy * (real)0.5 + (real)0.5;
+}

@@ -1,0 +1,41 @@
+// Every primitive that is not a triangle, behind one interface.
+#include "bezier.cl"
+#include "disk.cl"
+#include "effects.h"
+#include "plane.cl"
+#include "sphere.cl"
+
+// Meets the ray with one shape. If it is met at 0 < t < hit->t, sets hit->t, hit->primitive to
+// HIT_SHAPE | index and hit->u, hit->v to what shape_surface needs, and returns true; else leaves hit as it is.
+INLINE bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit) {
+  uint type = shape->type;
+  real t = INFINITY;
+  real2 parameters = (real2)(0);
+  if (HAS(EFFECT_SPHERES) && type == SHAPE_SPHERE) t = sphere_intersect(shape, ray, hit->t);
+  if (HAS(EFFECT_PLANES) && type == SHAPE_PLANE) t = plane_intersect(shape, ray, hit->t);
+  if (HAS(EFFECT_DISKS) && type == SHAPE_DISK) t = disk_intersect(shape, ray, hit->t);
+  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER)
+    t = bezier_intersect(shape, curves, ray, hit->t, &parameters);
+  if (!(t < hit->t)) return false;
+  hit->t = t;
+  hit->primitive = HIT_SHAPE | index;
+  hit->u = parameters.x;
+  hit->v = parameters.y;
+  return true;
+}
+
+// Whether the ray meets the shape at 0 < t < t_max.
+INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max) {
+  Hit hit = {t_max, HIT_NONE, 0, 0};
+  return shape_closest(shape, 0, curves, ray, &hit);
+}
+
+// Position, normals, uv and material at a hit that shape_closest found on the same ray.
+INLINE void shape_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
+  uint type = shape->type;
+  if (HAS(EFFECT_SPHERES) && type == SHAPE_SPHERE) sphere_surface(shape, ray, hit, surface);
+  if (HAS(EFFECT_PLANES) && type == SHAPE_PLANE) plane_surface(shape, ray, hit, surface);
+  if (HAS(EFFECT_DISKS) && type == SHAPE_DISK) disk_surface(shape, ray, hit, surface);
+  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER) bezier_surface(shape, curves, ray, hit, surface);
+  surface->material = shape->material;
+}
