@@ -25,8 +25,8 @@ struct Mesh {
 /// the file, the line (or element of a binary file) and the fault.
 Mesh read_mesh(const std::string& file);
 
-/// Fills in vertex normals (area- and angle-weighted averages over shared positions) for corners that have
-/// none.
+/// Fills in unit normals for corners that have none: the average of the normals of the triangles that share
+/// the position (index), weighted by their angle there (Thürmer and Wüthrich 1998).
 void add_missing_normals(Mesh& mesh);
 
 }  // namespace causticl

@@ -1,0 +1,16 @@
+// The readers behind read_mesh, one a format.
+#pragma once
+
+#include "mesh.hpp"
+#include "mesh_input.hpp"
+
+namespace causticl {
+
+/// Wavefront OBJ: v, vt, vn and f; free-form geometry, lines, points, groups and materials are passed over.
+void read_obj(MeshInput& input, Mesh& mesh);
+
+/// Stanford PLY (Turk 1994), ASCII or binary: vertex x y z, nx ny nz, and s t or u v; face vertex_indices.
+/// Other elements and properties are passed over.
+void read_ply(MeshInput& input, Mesh& mesh);
+
+}  // namespace causticl
