@@ -96,8 +96,11 @@ void decode_stb_as(StbLoader<T> load, const std::string& bytes, bool srgb, Image
   int channels = 0;
   const std::unique_ptr<T, void (*)(void*)> pixels(
       load(&io, &source, &image.width, &image.height, &channels, 4), stbi_image_free);
+  const std::string fault = pixels ? "" : stbi_failure_reason();
+  if (fault == "unknown image type") throw std::runtime_error("expected PNG, JPEG, BMP, TGA, HDR or EXR");
   if (source.ended_early) throw std::runtime_error("it ends early; is it truncated?");
-  if (!pixels) throw std::runtime_error(stbi_failure_reason());
+  if (!pixels) throw std::runtime_error(fault);
+  check_image_size(image.width, image.height);
 
   image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   if constexpr (std::is_floating_point_v<T>) {
@@ -118,12 +121,6 @@ void decode_stb(const std::string& bytes, bool srgb, Image& image) {
   if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
   const auto* raw = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto length = static_cast<int>(bytes.size());
-  if (!stbi_info_from_memory(raw, length, &image.width, &image.height, nullptr)) {
-    const std::string reason = stbi_failure_reason();
-    throw std::runtime_error(reason == "unknown image type" ? "expected PNG, JPEG, BMP, TGA, HDR or EXR"
-                                                            : reason);
-  }
-  check_image_size(image.width, image.height);
   if (stbi_is_hdr_from_memory(raw, length))
     decode_stb_as<float>(stbi_loadf_from_callbacks, bytes, srgb, image);
   else if (stbi_is_16_bit_from_memory(raw, length))

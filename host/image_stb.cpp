@@ -12,7 +12,6 @@
 #define STBI_ONLY_TGA
 #define STBI_ONLY_HDR
 #define STBI_NO_STDIO
-#define STBI_WRITE_NO_STDIO
 #define STBI_MAX_DIMENSIONS 65536
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>

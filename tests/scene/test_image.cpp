@@ -1,0 +1,285 @@
+#include <stb/stb_image_write.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <limits>
+
+#include "image.hpp"
+#include "image_formats.hpp"
+#include "temporary_folder.hpp"
+
+namespace causticl {
+namespace {
+
+void append_bytes(void* target, void* data, int size) {
+  static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
+// 2x2 texels, top row first: red, green / blue, grey with alpha 128.
+const std::vector<unsigned char> four_texels{255, 0, 0,   255, 0,   255, 0,   255,
+                                             0,   0, 255, 255, 188, 188, 188, 128};
+
+std::string png_bytes() {
+  std::string bytes;
+  stbi_write_png_to_func(append_bytes, &bytes, 2, 2, 4, four_texels.data(), 0);
+  return bytes;
+}
+
+std::vector<float> texel(const Image& image, int x, int y) {
+  const auto begin = image.rgba.begin() + 4 * (y * image.width + x);
+  return {begin, begin + 4};
+}
+
+/// 3x2 pixels of values that 32-bit floats hold and halves do not.
+Picture small_picture() {
+  Picture picture{3, 2, {}};
+  for (int i = 0; i < 18; ++i) picture.rgb.push_back(1e-4f + 1000.001f * float(i));
+  return picture;
+}
+
+bool has_no_temporary(const TemporaryFolder& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+    if (entry.path().extension() == ".tmp") return false;
+  return true;
+}
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string big_endian(float value) {
+  std::string bytes(4, '\0');
+  std::memcpy(bytes.data(), &value, 4);
+  if (std::endian::native == std::endian::little) std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("A PNG is read bottom row first, linear or by the sRGB curve") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.png", png_bytes());
+  const Image linear = read_image(file, false), srgb = read_image(file, true);
+  CHECK(linear.file == file);
+  REQUIRE(linear.width == 2);
+  REQUIRE(linear.height == 2);
+  REQUIRE(linear.rgba.size() == 16);
+  CHECK(texel(linear, 0, 1) == std::vector<float>{1, 0, 0, 1});
+  CHECK(texel(linear, 1, 1) == std::vector<float>{0, 1, 0, 1});
+  CHECK(texel(linear, 0, 0) == std::vector<float>{0, 0, 1, 1});
+  CHECK(texel(linear, 1, 0) == std::vector<float>{188 / 255.f, 188 / 255.f, 188 / 255.f, 128 / 255.f});
+  CHECK(texel(srgb, 0, 1) == std::vector<float>{1, 0, 0, 1});
+  CHECK(texel(srgb, 1, 0)[0] == Approx(0.502886).epsilon(1e-5));  // ((188/255 + 0.055) / 1.055)^2.4
+  CHECK(texel(srgb, 1, 0)[3] == 128 / 255.f);                     // alpha is never on the curve
+}
+
+TEST_CASE("JPEG, BMP, TGA and HDR are read, and refused where they end early") {
+  const TemporaryFolder folder;
+  const int width = 40, height = 30;
+  std::vector<unsigned char> pixels;
+  std::vector<float> floats;
+  for (int i = 0; i < 3 * width * height; ++i) {
+    const int y = i / 3 / width;
+    pixels.push_back(static_cast<unsigned char>(y * 8));
+    floats.push_back(float(y) * 8);
+  }
+  std::string jpg, bmp, tga, hdr, png;
+  stbi_write_jpg_to_func(append_bytes, &jpg, width, height, 3, pixels.data(), 95);
+  stbi_write_bmp_to_func(append_bytes, &bmp, width, height, 3, pixels.data());
+  stbi_write_tga_to_func(append_bytes, &tga, width, height, 3, pixels.data());
+  stbi_write_hdr_to_func(append_bytes, &hdr, width, height, 3, floats.data());
+  stbi_write_png_to_func(append_bytes, &png, width, height, 3, pixels.data(), 0);
+  for (const auto& [name, bytes] : std::map<std::string, std::string>{
+           {"a.jpg", jpg}, {"a.bmp", bmp}, {"a.tga", tga}, {"a.hdr", hdr}, {"a.png", png}}) {
+    CAPTURE(name);
+    const Image image = read_image(folder.write(name, bytes), false);
+    REQUIRE(image.width == width);
+    REQUIRE(image.height == height);
+    const float top = name == "a.hdr" ? 8 : 8 / 255.f;  // the second row from above, and the last
+    CHECK(texel(image, 7, height - 2)[1] == Approx(top).margin(0.02));
+    CHECK(texel(image, 7, 0)[2] == Approx(29 * top).margin(0.02));
+    CHECK(texel(image, 7, 0)[3] == 1);
+    for (const double part : {0.9, 0.5, 0.05}) {
+      CAPTURE(part);
+      const std::string cut = folder.write(name, bytes.substr(0, std::size_t(double(bytes.size()) * part)));
+      const std::string message = user_error_of([&] { read_image(cut, false); }, cut);
+      CHECK(message.find(name + ": cannot be decoded: ") == 0);
+      CHECK(message.find('\n') == message.npos);
+    }
+  }
+}
+
+TEST_CASE("Damaged and foreign images have one clear line each") {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& name, const std::string& bytes) {
+    const std::string file = folder.write(name, bytes);
+    return user_error_of([&] { read_image(file, false); }, file);
+  };
+  CHECK(fault("a.png", "") == "a.png: is empty; expected an image");
+  CHECK(fault("a.png", "no image at all, only some text that is longer than a header") ==
+        "a.png: cannot be decoded: expected PNG, JPEG, BMP, TGA, HDR or EXR");
+  CHECK(user_error_of([&] { read_image(folder.path("none.png"), false); }, folder.path("none.png")) ==
+        "none.png: no such file");
+  std::filesystem::create_directory(folder.path("folder.png"));
+  CHECK(user_error_of([&] { read_image(folder.path("folder.png"), false); }, folder.path("folder.png")) ==
+        "folder.png: is a folder; expected an image");
+  CHECK(user_error_of([] { read_image("/dev/zero", false); }) ==
+        "/dev/zero: is not a regular file; expected an image");
+
+  // The width and height of a PNG are the bytes 16 to 23.
+  std::string zero = png_bytes(), huge = png_bytes();
+  zero.replace(16, 8, std::string(8, '\0'));
+  huge.replace(16, 8, std::string("\0\0\xff\xff\0\0\xff\xff", 8));
+  CHECK(fault("a.png", zero) == "a.png: cannot be decoded: 0-pixel image");
+  CHECK(fault("a.png", huge) == "a.png: cannot be decoded: too large");
+  // A TGA without pixels.
+  CHECK(fault("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\0\0\0\0\x18\0", 18)).find("a.tga: cannot be") ==
+        0);
+
+  // Every single damaged byte of a small image is refused or decoded, but never a crash.
+  const std::string exr = encode_exr(small_picture(), {});
+  for (const auto& [name, bytes] :
+       std::map<std::string, std::string>{{"b.png", png_bytes()}, {"b.exr", exr}}) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ 0x81);
+      const std::string message = fault(name, damaged);
+      CHECK(message.find('\n') == message.npos);
+      if (i % 7 == 0) CHECK(fault(name, bytes.substr(0, i)) != "");
+    }
+  }
+}
+
+TEST_CASE("EXR keeps every bit and carries its metadata") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path("a.exr");
+  Picture picture = small_picture();
+  picture.rgb[4] = std::numeric_limits<float>::infinity();
+  const Metadata metadata{{"scene", "a b.json"}, {"seed", "7"}, {"version", "0.1"}, {"device", "x"}};
+  write_picture(file, picture, metadata);
+  const Picture back = read_picture(file);
+  CHECK(back.width == 3);
+  CHECK(back.height == 2);
+  CHECK(back.rgb == picture.rgb);
+  const std::string bytes = bytes_of(file);
+  for (const auto& [name, text] : metadata) {
+    CAPTURE(name);
+    const std::string size{static_cast<char>(text.size()), '\0', '\0', '\0'};
+    CHECK(bytes.find(name + '\0' + "string" + '\0' + size + text) != bytes.npos);
+  }
+  // As a texture the same file has its bottom row first, and its values are not touched by the sRGB curve.
+  const Image image = read_image(file, true);
+  CHECK(texel(image, 0, 0) == std::vector<float>{picture.rgb[9], picture.rgb[10], picture.rgb[11], 1});
+  CHECK(has_no_temporary(folder));
+}
+
+TEST_CASE("PFM keeps every bit; both byte orders and grey are read") {
+  const TemporaryFolder folder;
+  const Picture picture = small_picture();
+  write_picture(folder.path("a.PFM"), picture, {});
+  CHECK(read_picture(folder.path("a.PFM")).rgb == picture.rgb);
+  const std::string bytes = bytes_of(folder.path("a.PFM"));
+  CHECK(bytes.substr(0, 12) == "PF\n3 2\n-1.0\n");
+  CHECK(bytes.size() == 12 + 18 * 4);
+  if (std::endian::native == std::endian::little)
+    CHECK(std::memcmp(bytes.data() + 12, picture.rgb.data() + 9, 36) == 0);  // the bottom row comes first
+
+  const std::string grey = "Pf\n1 2\n1.0\n" + big_endian(2.5f) + big_endian(-7);
+  CHECK(read_picture(folder.write("b.pfm", grey)).rgb == std::vector<float>{-7, -7, -7, 2.5f, 2.5f, 2.5f});
+
+  const auto fault = [&](const std::string& text) {
+    const std::string file = folder.write("c.pfm", text);
+    return user_error_of([&] { read_picture(file); }, file);
+  };
+  CHECK(fault("") == "c.pfm: is empty; expected an image");
+  CHECK(fault("P6\n1 1\n255\n") ==
+        "c.pfm: cannot be decoded: expected PF or Pf at its beginning; is it a PFM file?");
+  CHECK(fault("PF\n1 x\n") ==
+        "c.pfm: cannot be decoded: its header is damaged; expected width, height and scale");
+  CHECK(fault("PF\n1 1\n0\n1234") ==
+        "c.pfm: cannot be decoded: its header is damaged; expected width, height and scale");
+  CHECK(fault("PF\n0 1\n-1\n") == "c.pfm: cannot be decoded: it has no pixels");
+  CHECK(fault("PF\n-4 1\n-1\n") == "c.pfm: cannot be decoded: it has no pixels");
+  CHECK(fault("PF\n1000000 1000000\n-1\n") ==
+        "c.pfm: cannot be decoded: 1000000x1000000 pixels are too many; at most 2^28 are read");
+  CHECK(fault("PF\n1 1\n-1") ==
+        "c.pfm: cannot be decoded: its pixels end early; expected 12 bytes of them; is it truncated?");
+  CHECK(fault("PF\n1 1\n-1.0\n12345678901") ==
+        "c.pfm: cannot be decoded: its pixels end early; expected 12 bytes of them; is it truncated?");
+}
+
+TEST_CASE("PNG clamps, takes the power 1/2.2 and rounds; NaN is black") {
+  const TemporaryFolder folder;
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  const Picture picture{4, 1, {0, 1, 0.5f, -3, 7, inf, -inf, nan, 1e-30f, 0.18f, 0.002f, 0.9f}};
+  write_picture(folder.path("a.png"), picture, {{"ignored", "x"}});
+  const Image image = read_image(folder.path("a.png"), false);
+  const std::vector<int> expected{0, 255, 186, 0, 255, 255, 0, 0, 0, 117, 15, 243};
+  for (int i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    CHECK(std::lround(image.rgba[std::size_t(i / 3 * 4 + i % 3)] * 255) == expected[std::size_t(i)]);
+  }
+}
+
+TEST_CASE("Outputs are checked before the rendering, and a failed one leaves nothing behind") {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& name) {
+    return user_error_of([&] { check_output(folder.path(name)); }, folder.path(name));
+  };
+  CHECK(fault("a.png") == "");
+  CHECK(fault("a.EXR") == "");
+  CHECK(std::filesystem::is_empty(folder.path("")));
+  CHECK(fault("a.jpg") == "a.jpg: unknown output format; expected a name that ends in .png, .exr or .pfm");
+  CHECK(fault("png") == "png: unknown output format; expected a name that ends in .png, .exr or .pfm");
+  CHECK(user_error_of([] { check_output(""); }) ==
+        ": unknown output format; expected a name that ends in .png, .exr or .pfm");
+  CHECK(fault("none/a.png") ==
+        "a.png: cannot be written: there is no folder " + folder.path("none") + "; create it first");
+  folder.write("file", "x");
+  CHECK(fault("file/a.png").find("a.png: cannot be written: ") == 0);
+  std::filesystem::create_directory(folder.path("folder.png"));
+  CHECK(fault("folder.png") == "folder.png: cannot be written: a folder has this name");
+  CHECK(fault(std::string(300, 'a') + ".png").find("cannot be written: File name too long") !=
+        std::string::npos);
+  CHECK(user_error_of([] { check_output("/proc/a.png"); }).find("/proc/a.png: cannot be written: ") == 0);
+
+  // Writing fails half-way: the old file stays whole, and no temporary stays.
+  const std::string file = folder.write("a.pfm", "the old file");
+  const Picture picture{200, 200, std::vector<float>(120000, 1)};
+  rlimit old_limit{};
+  getrlimit(RLIMIT_FSIZE, &old_limit);
+  const rlimit small_limit{10000, old_limit.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small_limit);
+  const std::string message = user_error_of([&] { write_picture(file, picture, {}); }, file);
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  CHECK(message == "a.pfm: cannot be written: File too large");
+  CHECK(bytes_of(file) == "the old file");
+  CHECK(has_no_temporary(folder));
+}
+
+TEST_CASE("Real images: the assets folder") {
+  const std::filesystem::path folder = std::filesystem::path(CAUSTICL_SOURCE_DIR) / "../shared/assets";
+  for (const std::string name : {"studio.exr", "sunset.exr"}) {
+    if (!std::filesystem::exists(folder / name)) {
+      WARN("skipped: there is no " << (folder / name).lexically_normal().string());
+      continue;
+    }
+    const Image image = read_image((folder / name).string(), false);
+    CHECK(image.width == 512);
+    CHECK(image.height == 256);
+    CHECK(std::all_of(image.rgba.begin(), image.rgba.end(), [](float c) { return std::isfinite(c); }));
+    const Picture picture = read_picture((folder / name).string());
+    CHECK(picture.rgb[0] == texel(image, 0, 255)[0]);
+    CHECK(picture.rgb.back() == texel(image, 511, 0)[2]);
+  }
+}
+
+}  // namespace causticl
