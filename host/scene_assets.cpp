@@ -1,0 +1,60 @@
+// Files that a scene names: found beside it, read once.
+#include <filesystem>
+
+#include "error.hpp"
+#include "scene_loader.hpp"
+
+namespace causticl {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the scene file first, so that a scene moves with its assets; then in the working directory.
+std::string resolve(const JsonReader& json, const std::string& scene_file) {
+  const std::string path = json.string();
+  if (path.empty() || path.find('\0') != std::string::npos) json.fail_expected("the path of a file");
+  std::error_code status;
+  const fs::path beside = fs::path(scene_file).parent_path() / path;
+  for (const fs::path& candidate : {beside, fs::path(path)}) {
+    if (!fs::exists(candidate, status)) continue;
+    if (fs::is_directory(candidate, status)) json.fail_expected("a file", "that is a directory");
+    return candidate.lexically_normal().string();
+  }
+  const bool absolute = fs::path(path).is_absolute();
+  json.fail_expected(
+      "a file that exists",
+      absolute ? "" : "relative paths are looked up beside the scene file, then in the working directory");
+}
+
+// The index of `file` in `list`, read by `read` at the first mention; its error gets the place of the
+// mention.
+template <typename Key, typename Item, typename Read>
+int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list, const JsonReader& json,
+              Read read) {
+  const auto [entry, is_new] = known.try_emplace(key, static_cast<int>(list.size()));
+  if (!is_new) return entry->second;
+  try {
+    list.push_back(read());
+  } catch (const UserError& error) {
+    json.fail(error.what());
+  }
+  return entry->second;
+}
+
+}  // namespace
+
+int SceneLoader::image(const JsonReader& json, bool srgb) {
+  const std::string file = resolve(json, scene.file);
+  return load_once(images, {file, srgb}, scene.images, json, [&] { return read_image(file, srgb); });
+}
+
+int SceneLoader::mesh(const JsonReader& json) {
+  const std::string file = resolve(json, scene.file);
+  return load_once(meshes, file, scene.meshes, json, [&] { return read_mesh(file); });
+}
+
+void SceneLoader::notice(const JsonReader& where, const std::string& text) {
+  if (said.insert(text).second) scene.notices.push_back(one_line(where.place() + ": " + text));
+}
+
+}  // namespace causticl

@@ -1,0 +1,123 @@
+// The entries of `objects`.
+#include <cmath>
+
+#include "scene_loader.hpp"
+
+namespace causticl {
+namespace {
+
+using Shape = Object::Shape;
+
+const std::vector<std::string> type_names{"sphere", "plane", "rectangle",    "disk",
+                                          "box",    "mesh",  "bezier_rotate"};
+
+std::vector<std::string> keys_of(Shape shape) {
+  std::vector<std::string> keys{"type", "transform", "texture", "material"};
+  switch (shape) {
+    case Shape::sphere:
+    case Shape::disk:
+      keys.push_back("radius");
+      break;
+    case Shape::box:
+      keys.push_back("size");
+      break;
+    case Shape::mesh:
+      keys.insert(keys.end(), {"path", "tree_type", "smooth"});
+      break;
+    case Shape::bezier:
+      keys.push_back("point");
+      break;
+    default:
+      break;
+  }
+  return keys;
+}
+
+// A sphere stays one under rotations, mirrors and one factor for all axes.
+bool scales_uniformly(const Transform& transform) {
+  const auto& [a, b, c] = transform.rows;
+  const double s = dot(a, a), tolerance = 1e-6 * s;
+  return std::abs(dot(b, b) - s) <= tolerance && std::abs(dot(c, c) - s) <= tolerance &&
+         std::abs(dot(a, b)) <= tolerance && std::abs(dot(b, c)) <= tolerance &&
+         std::abs(dot(c, a)) <= tolerance;
+}
+
+// One Bezier curve (radius, height) of degree up to 16.
+std::vector<std::array<double, 2>> read_points(const JsonReader& json) {
+  std::vector<std::array<double, 2>> points;
+  bool off_axis = false, distinct = false;
+  for (const JsonReader& item : json.items(2, 17, "control points")) {
+    const auto xy = item.items(2, 2, "numbers, radius and height");
+    points.push_back({xy[0].number(non_negative_number), xy[1].number()});
+    off_axis |= points.back()[0] > 0;
+    distinct |= points.back() != points.front();
+  }
+  if (!off_axis) json.fail("expected a control point off the axis, got a curve of radius 0");
+  if (!distinct) json.fail("expected control points that differ, got one point");
+  return points;
+}
+
+void read_mesh_keys(const JsonReader& json, Object& object, SceneLoader& loader) {
+  if (const auto tree = json.find("tree_type"))
+    if (tree->choice({"KDTree", "BSPTree", "MyTree"}) != 0)
+      loader.notice(*tree, "every mesh is put into the KD-tree; \"tree_type\" is ignored");
+  object.mesh = loader.mesh(json.at("path"));
+  // A file without normals is drawn as the flat faces it has, unless smoothing is asked for.
+  const Mesh& mesh = loader.scene.meshes[static_cast<std::size_t>(object.mesh)];
+  object.smooth = json.boolean("smooth", !mesh.normals.empty());
+}
+
+}  // namespace
+
+void read_object(const JsonReader& json, SceneLoader& loader) {
+  if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
+  Object object;
+  object.pointer = json.pointer();
+  object.shape = static_cast<Shape>(json.at("type").choice(type_names));
+  json.check_keys(keys_of(object.shape), {"motion"});
+  if (const auto transform = json.find("transform")) object.transform = read_transform(*transform);
+
+  switch (object.shape) {
+    case Shape::sphere:
+      object.radius = json.at("radius").number(positive_number);
+      if (!scales_uniformly(object.transform))
+        json.at("transform")
+            .fail("expected one factor for x, y and z, got a scale that makes the sphere an ellipsoid");
+      break;
+    case Shape::disk:
+      object.radius = json.number("radius", 1, positive_number);
+      break;
+    case Shape::box:
+      object.size = read_vector(json, "size", {1, 1, 1}, positive_number);
+      break;
+    case Shape::mesh:
+      read_mesh_keys(json, object, loader);
+      break;
+    case Shape::bezier:
+      object.points = read_points(json.at("point"));
+      break;
+    default:
+      break;
+  }
+
+  if (json.has("texture") && json.has("material"))
+    json.at("material").fail("expected \"material\" or \"texture\", got both");
+  if (const auto texture = json.find("texture"))
+    object.material = read_base_texture(*texture, object.shape, loader);
+  else if (const auto material = json.find("material"))
+    object.material = read_material_of(*material, loader);
+  else
+    json.fail("expected \"material\" or \"texture\", got neither");
+
+  const Scene& scene = loader.scene;
+  const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
+  if (object.shape == Shape::mesh && material.color_texture >= 0 &&
+      scene.meshes[static_cast<std::size_t>(object.mesh)].uvs.empty())
+    loader.notice(json, "the mesh has no (u, v): its texture shows the one texel at (0, 0)");
+  if (object.shape == Shape::plane && max_component(material.emission) > 0 &&
+      scene.renderer.integrator == Integrator::sppm)
+    json.fail("an infinite light has no power to emit; use a rectangle or the integrator \"pt\"");
+  loader.scene.objects.push_back(object);
+}
+
+}  // namespace causticl
