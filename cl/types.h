@@ -12,6 +12,7 @@
 #include <cstdint>
 namespace causticl {
 using uint = std::uint32_t;
+using ushort = std::uint16_t;
 using ulong = std::uint64_t;
 struct alignas(8) float2 {
   float x = 0, y = 0;
@@ -90,6 +91,47 @@ typedef struct {
   uint unused[2];
 } Shape;
 CHECK_SIZE(Shape, 144);
+
+// A node of the wide KD-tree: the bounds of up to eight disjoint cells, by component, so that one test takes
+// all eight. Rows 0 to 2 of `bounds` are the low planes in x, y, z and rows 3 to 5 the high ones; an unused
+// child has low > high. The root of an empty tree has child[0] = 0.
+typedef struct {
+  float bounds[6][8];
+  uint child[8];       // KD_LEAF | KD_SHAPES | index of the first block; else the index of a node
+  ushort block_count[8];  // leaves: blocks, consecutive from the first
+  uint parent;         // index of the node above; the root is node 0
+  uint slot;           // which child of its parent the node is
+  float extent;        // the longest edge of the bounds of the whole tree
+  uint unused;
+} KdNode;
+CHECK_SIZE(KdNode, 256);
+
+#define KD_LEAF 0x80000000u
+#define KD_SHAPES 0x40000000u  // the leaf holds shapes beside triangles
+#define KD_INDEX 0x3fffffffu
+#define KD_LEVELS 16           // wide levels at most, so that a trail of 4 or 8 bits a level has a fixed size
+
+// Eight primitives of a leaf. A lane with a triangle has position[vertex][axis][lane]; a lane with a shape has
+// the low and high corner of its bounds in the place of vertices 0 and 1 and NaN in that of vertex 2; an empty
+// lane has NaN throughout. NaN is never inside a triangle, so the triangle test needs no mask.
+typedef struct {
+  float position[3][3][8];
+  uint primitive[8];  // index of the triangle; BLOCK_SHAPE | index into shapes; BLOCK_EMPTY
+} TriangleBlock;
+CHECK_SIZE(TriangleBlock, 320);
+
+#define BLOCK_SHAPE 0x80000000u
+#define BLOCK_EMPTY 0xffffffffu
+
+// What shading needs of a triangle beside its positions.
+typedef struct {
+  float2 uv[3];    // of each corner
+  uint normal[3];  // of each corner, octahedral, 16 bits each way
+  uint material;   // index of the material | TRIANGLE_SMOOTH
+} TriangleAttributes;
+CHECK_SIZE(TriangleAttributes, 40);
+
+#define TRIANGLE_SMOOTH 0x80000000u  // `normal` holds shading normals
 
 #define EMITTER_TRIANGLE 0u
 #define EMITTER_SPHERE 1u

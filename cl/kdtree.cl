@@ -1,0 +1,257 @@
+// Traversal of the wide KD-tree without a stack: the nearest hit, and any hit.
+//
+// A node holds up to eight disjoint cells (bounds of what lies in them, cut at the split planes), tested at once.
+// Along a ray disjoint cells have one order, so a hit inside the nearest cell ends the search. In place of a stack
+// there is a trail of a few bits a level. The order of a node's children is a pure function of ray and node: on
+// coming back to a node, its test is done again and the children after the one just left are found by their keys.
+//
+// Which cells a ray visits must cover the errors of the triangle test, else a ray through an edge shared by two
+// cells could miss both triangles. The shear test is exact for vertices that are off by about 4 roundings of their
+// distance, the slab test adds 3 roundings: every slab is therefore widened by 8 roundings of the largest distance
+// between the ray's origin and a point of the scene.
+#include "effects.h"
+#include "triangle.cl"
+
+bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit);
+bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max);
+
+// More node tests than any ray can need: only a device that computes wrongly gets here.
+#define KD_STEP_LIMIT (1u << 24)
+
+// The ray as the slab test wants it. Always in float, as the planes are.
+typedef struct {
+  float3 origin;
+  float3 inverse;
+  float3 widening;           // in t, of each slab to both sides
+  uint near_x, near_y, near_z;  // rows of KdNode.bounds that a ray in this direction enters by
+  uint far_x, far_y, far_z;
+} SlabRay;
+
+INLINE SlabRay slab_ray(Ray ray, global const KdNode *root) {
+#ifdef CAUSTICL_DOUBLE
+  float3 o = convert_float3(ray.origin), d = convert_float3(ray.direction);
+#else
+  float3 o = ray.origin, d = ray.direction;
+#endif
+  SlabRay s;
+  // 1e-18 in place of 0 keeps every product finite for scenes up to 1e18 and below every widening.
+  float3 size = fmax(fabs(d), (float3)1e-18f);
+  s.origin = o;
+  s.inverse = copysign(1.0f / size, d);
+  // From the origin to one corner of the tree, and from there to any other point.
+  float3 corner = (float3)(root->bounds[0][0], root->bounds[1][0], root->bounds[2][0]);
+  float3 distance = fabs(o - corner);
+  float farthest = max(distance.x, max(distance.y, distance.z)) + root->extent;
+#ifdef CAUSTICL_DOUBLE
+  farthest += max(fabs(o.x), max(fabs(o.y), fabs(o.z)));  // the origin was rounded
+#endif
+  s.widening = fabs(s.inverse) * (farthest * (8 * 5.9604645e-8f));
+  uint x = signbit(d.x) ? 3u : 0u, y = signbit(d.y) ? 3u : 0u, z = signbit(d.z) ? 3u : 0u;
+  s.near_x = x, s.near_y = 1u + y, s.near_z = 2u + z;
+  s.far_x = 3u - x, s.far_y = 4u - y, s.far_z = 5u - z;
+  return s;
+}
+
+INLINE float8 slab_planes(global const KdNode *node, uint row) {
+  return *(global const float8 *)node->bounds[row];
+}
+
+// Where the ray enters and leaves each child's cell; the ray meets the children with enter <= leave.
+INLINE void node_intervals(global const KdNode *node, SlabRay ray, float8 *enter, float8 *leave) {
+  float8 near_x = fma(slab_planes(node, ray.near_x) - ray.origin.x, ray.inverse.x, -ray.widening.x);
+  float8 near_y = fma(slab_planes(node, ray.near_y) - ray.origin.y, ray.inverse.y, -ray.widening.y);
+  float8 near_z = fma(slab_planes(node, ray.near_z) - ray.origin.z, ray.inverse.z, -ray.widening.z);
+  float8 far_x = fma(slab_planes(node, ray.far_x) - ray.origin.x, ray.inverse.x, ray.widening.x);
+  float8 far_y = fma(slab_planes(node, ray.far_y) - ray.origin.y, ray.inverse.y, ray.widening.y);
+  float8 far_z = fma(slab_planes(node, ray.far_z) - ray.origin.z, ray.inverse.z, ray.widening.z);
+  *enter = max(max(near_x, near_y), max(near_z, (float8)0));
+  *leave = min(min(far_x, far_y), far_z);
+}
+
+// Whether a hit at t in the cell of one child is nearer than any in a cell not yet visited. It must lie before the
+// exit, narrowed by what the entry of the next cell is widened by. And the cells must have been in order: where a
+// plane parts two cells at t = p, widened by w, the middles of their intervals can be in the wrong order only if the
+// later one is left before p + 3 w. For a ray within a split plane w is huge, and it never ends early.
+INLINE bool hit_is_final(global const KdNode *node, uint slot, SlabRay ray, float t) {
+  float near_x = fma(node->bounds[ray.near_x][slot] - ray.origin.x, ray.inverse.x, 4 * ray.widening.x);
+  float near_y = fma(node->bounds[ray.near_y][slot] - ray.origin.y, ray.inverse.y, 4 * ray.widening.y);
+  float near_z = fma(node->bounds[ray.near_z][slot] - ray.origin.z, ray.inverse.z, 4 * ray.widening.z);
+  float far_x = fma(node->bounds[ray.far_x][slot] - ray.origin.x, ray.inverse.x, -ray.widening.x);
+  float far_y = fma(node->bounds[ray.far_y][slot] - ray.origin.y, ray.inverse.y, -ray.widening.y);
+  float far_z = fma(node->bounds[ray.far_z][slot] - ray.origin.z, ray.inverse.z, -ray.widening.z);
+  return max(t, max(near_x, max(near_y, near_z))) <= min(far_x, min(far_y, far_z));
+}
+
+// The lanes of a block with a shape whose bounds the ray meets before t_max, as bits.
+INLINE uint block_shapes(global const TriangleBlock *block, SlabRay ray, float t_max) {
+  const int8 bits = (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const float8 zero = 0;
+  float8 enter = zero, leave = t_max;
+  uint near[3] = {ray.near_x, ray.near_y, ray.near_z};
+  float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
+  float inverse[3] = {ray.inverse.x, ray.inverse.y, ray.inverse.z};
+  float widening[3] = {ray.widening.x, ray.widening.y, ray.widening.z};
+#pragma unroll
+  for (uint axis = 0; axis < 3u; ++axis) {
+    uint forward = near[axis] == axis;
+    float8 low = *(global const float8 *)block->position[1u - forward][axis];
+    float8 high = *(global const float8 *)block->position[forward][axis];
+    enter = max(enter, fma(low - origin[axis], inverse[axis], -widening[axis]));
+    leave = min(leave, fma(high - origin[axis], inverse[axis], widening[axis]));
+  }
+  int8 primitive = as_int8(*(global const uint8 *)block->primitive);
+  return or_lanes((enter <= leave) & (primitive < 0) & (primitive != -1) & bits);
+}
+
+// The nearest hit before hit->t among the blocks of a leaf.
+INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
+                         uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, Hit *hit) {
+  bool found = false;
+  uint first = child & KD_INDEX;
+  for (uint i = first; i < first + count; ++i) {
+    if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, sheared, hit);
+    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
+      for (uint met = block_shapes(blocks + i, slab, hit->t); met != 0; met &= met - 1u) {
+        uint index = blocks[i].primitive[31u - clz(met & -met)] & ~BLOCK_SHAPE;
+        found |= shape_closest(shapes + index, index, curves, ray, hit);
+      }
+    }
+  }
+  return found;
+}
+
+INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
+                          uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, real t_max) {
+  uint first = child & KD_INDEX;
+  for (uint i = first; i < first + count; ++i) {
+    real8 t, weight_1, weight_2;
+    if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, sheared, t_max, &t, &weight_1, &weight_2)) return true;
+    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
+      for (uint met = block_shapes(blocks + i, slab, t_max); met != 0; met &= met - 1u) {
+        uint index = blocks[i].primitive[31u - clz(met & -met)] & ~BLOCK_SHAPE;
+        if (shape_occluded(shapes + index, curves, ray, t_max)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+#define TRAIL_DONE 0u    // no sibling is left
+#define TRAIL_RETEST 7u  // siblings are left; which, the node's test must say
+#define TRAIL_NEXT 8u    // 8 | slot: the next sibling
+
+// The nearest hit of everything in the tree before hit->t. False, and `hit` as it was, if there is none.
+INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+                           global const float *curves, Ray ray, Hit *hit) {
+  const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  if (nodes->child[0] == 0) return false;
+  ShearedRay sheared = sheared_ray(ray);
+  SlabRay slab = slab_ray(ray, nodes);
+  bool found = false;
+  uint index = 0, slot = 0;
+  bool retest = false;  // only the children after `slot`
+  ulong trail = 0;      // 4 bits a level, the current node lowest
+  uint more = 0;        // 1 bit a level: siblings are left after the one that the trail names
+  for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
+    // The children met, by keys: the middle of the interval in the cell, the lane in the lowest bits. The middle is
+    // right for flat cells as well, and does not depend on the hit so far.
+    global const KdNode *node = nodes + index;
+    float8 enter, leave;
+    node_intervals(node, slab, &enter, &leave);
+    int8 key = (as_int8(enter + leave) & ~7) | lanes;
+    int8 met = (enter <= leave) & (enter < (float)hit->t);
+    if (retest) {
+      int keys[8];
+      vstore8(key, 0, keys);
+      met &= key > keys[slot];
+    }
+    key = met ? key : INT_MAX;
+    int nearest = min_lane_int(key);
+    trail &= ~15ul;
+    more &= ~1u;
+    bool descend = nearest != INT_MAX;
+    if (descend) {
+      slot = (uint)nearest & 7u;
+      key = key == nearest ? INT_MAX : key;
+      int second = min_lane_int(key);
+      if (second != INT_MAX) {
+        trail |= TRAIL_NEXT | ((uint)second & 7u);
+        more |= any_lane_int((key != second) & (key != INT_MAX)) ? 1u : 0u;
+      }
+    }
+    // Visit child `slot` if there is one, then what the trail names, until a node must be tested.
+    for (;;) {
+      if (descend) {
+        uint child = nodes[index].child[slot];
+        if (!(child & KD_LEAF)) {
+          index = child;
+          trail <<= 4;
+          more <<= 1;
+          retest = false;
+          break;
+        }
+        if (leaf_closest(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, hit)) {
+          found = true;
+          if (hit_is_final(nodes + index, slot, slab, (float)hit->t)) return true;
+        }
+      }
+      uint next = (uint)trail & 15u;
+      if (next & TRAIL_NEXT) {
+        slot = next & 7u;
+        trail ^= next ^ ((more & 1u) ? TRAIL_RETEST : TRAIL_DONE);
+        descend = true;
+      } else if (next == TRAIL_RETEST) {
+        retest = true;
+        break;
+      } else {
+        if (index == 0) return found;
+        slot = nodes[index].slot;
+        index = nodes[index].parent;
+        trail >>= 4;
+        more >>= 1;
+        descend = false;
+      }
+    }
+  }
+  return found;
+}
+
+// Whether anything in the tree is met for 0 < t < t_max. The order does not matter here, so the trail holds the
+// children left to visit, one bit each.
+INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+                            global const float *curves, Ray ray, real t_max) {
+  const int8 bits = (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  if (nodes->child[0] == 0) return false;
+  ShearedRay sheared = sheared_ray(ray);
+  SlabRay slab = slab_ray(ray, nodes);
+  uint index = 0;
+  ulong trail_low = 0, trail_high = 0;  // 8 bits a level, the node above the current one lowest
+  for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
+    float8 enter, leave;
+    node_intervals(nodes + index, slab, &enter, &leave);
+    int8 met = (enter <= leave) & (enter < (float)t_max);
+    uint left = or_lanes(met & bits);
+    for (;;) {
+      if (left) {
+        uint slot = 31u - clz(left & -left);
+        left &= left - 1u;
+        uint child = nodes[index].child[slot];
+        if (!(child & KD_LEAF)) {
+          index = child;
+          trail_high = (trail_high << 8) | (trail_low >> 56);
+          trail_low = (trail_low << 8) | left;
+          break;
+        }
+        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, t_max))
+          return true;
+      } else {
+        if (index == 0) return false;
+        index = nodes[index].parent;
+        left = (uint)trail_low & 255u;
+        trail_low = (trail_low >> 8) | (trail_high << 56);
+        trail_high >>= 8;
+      }
+    }
+  }
+  return false;
+}
