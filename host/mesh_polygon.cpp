@@ -100,7 +100,7 @@ void triangulate_polygon(const std::vector<std::array<float, 3>>& corners,
 
   // Ear clipping is quadratic, cubic at worst: a hostile polygon of millions of corners becomes a fan instead
   // of a hang.
-  constexpr std::uint64_t most_work = 1ull << 29;
+  constexpr std::uint64_t most_work = 1ull << 26;
   std::uint64_t work = 0;
   std::size_t left = corners.size(), misses = 0;
   std::uint32_t corner = 1;  // a convex polygon then becomes the usual fan around corner 0
