@@ -1,6 +1,6 @@
 // All that a ray can meet: infinite planes, one after the other, and everything bounded, in the tree.
-#include "kdtree.cl"
 #include "shape.cl"
+#include "kdtree.cl"
 
 typedef struct {
   global const KdNode *nodes;

@@ -9,11 +9,10 @@
 // cells could miss both triangles. The shear test is exact for vertices that are off by about 4 roundings of their
 // distance, the slab test adds 3 roundings: every slab is therefore widened by 8 roundings of the largest distance
 // between the ray's origin and a point of the scene.
+//
+// shape_closest() and shape_occluded() of shape.cl, or of a test, come before this file.
 #include "effects.h"
 #include "triangle.cl"
-
-bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit);
-bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max);
 
 // More node tests than any ray can need: only a device that computes wrongly gets here.
 #define KD_STEP_LIMIT (1u << 24)
