@@ -1,0 +1,43 @@
+#include "interruption.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace causticl {
+namespace {
+
+volatile sig_atomic_t requested = 0, silent = 0;
+
+void remember(int) {
+  const int previous_errno = errno;
+  requested = 1;
+  signal(SIGINT, SIG_DFL);
+  signal(SIGTERM, SIG_DFL);
+  // The line break leaves a progress bar, or the terminal's ^C, alone on its line.
+  constexpr char line_break[] = "\n",
+                 text[] = "causticl: interrupted: finishing the pass, then writing (again to stop at once)\n";
+  if (!silent) {
+    if (isatty(STDERR_FILENO)) [[maybe_unused]]
+      const auto ignored = write(STDERR_FILENO, line_break, sizeof line_break - 1);
+    [[maybe_unused]] const auto ignored = write(STDERR_FILENO, text, sizeof text - 1);
+  }
+  errno = previous_errno;
+}
+
+}  // namespace
+
+void interruption_listen(bool quiet) {
+  silent = quiet;
+  struct sigaction action {};
+  action.sa_handler = remember;
+  action.sa_flags = SA_RESTART;  // no system call of a driver or of a file is to fail for it
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interruption_requested() { return requested != 0; }
+
+}  // namespace causticl

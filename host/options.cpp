@@ -1,0 +1,266 @@
+#include "options.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "error.hpp"
+#include "image.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr int largest_int = 2147483647;
+constexpr int largest_extent = 65536;  // pixels of an edge
+const std::string exit_codes =
+    "Exit codes: 0 done, 1 a fault of causticl, 2 of the input, 3 of the device,\n"
+    "130 interrupted, with the image written.";
+
+/// The whole of `text` as a number, if it is one.
+template <typename T>
+std::optional<T> number(const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty()) return {};
+  return value;
+}
+
+std::optional<std::pair<int, int>> parse_size(const std::string& text) {
+  const auto cross = text.find_first_of("xX");
+  if (cross == std::string::npos) return {};
+  const auto width = number<int>(text.substr(0, cross)), height = number<int>(text.substr(cross + 1));
+  if (!width || !height || *width < 1 || *height < 1 || *width > largest_extent || *height > largest_extent)
+    return {};
+  return std::pair{*width, *height};
+}
+
+/// A validator that says what was expected and what was found. It sees the text before CLI11 converts it, so
+/// that every fault of a value gets a message of this one form.
+template <typename Accepts>
+CLI::Validator expect(const std::string& expected, Accepts accepts) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        return accepts(text) ? std::string() : "expected " + expected + ", found '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
+  const auto accepts = [=](const std::string& text) {
+    const auto value = number<std::int64_t>(text);
+    return value && *value >= low && *value <= high;
+  };
+  return expect("a whole number from " + std::to_string(low) + " to " + std::to_string(high), accepts);
+}
+
+const auto is_seconds = [](const std::string& text) {
+  const auto value = number<double>(text);
+  return value && std::isfinite(*value) && *value > 0;
+};
+const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
+const auto is_override = [](const std::string& text) {
+  const auto equals = text.find('=');
+  return equals != std::string::npos && equals > 0;
+};
+const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
+const auto is_folder = [](const std::string& text) { return std::filesystem::is_directory(text); };
+
+/// What CLI11 leaves as text.
+struct Texts {
+  std::string integrator, size;
+  std::vector<std::string> overrides;
+};
+
+/// The scene and what changes it as it is read: common to `render` and `info`.
+void add_scene_options(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("SCENE", options.scene, "scene file (JSON)")->required()->type_name("");
+  app.add_option("--integrator", texts.integrator, "in place of the scene's own")
+      ->check(expect("sppm or pt", is_integrator))
+      ->type_name("sppm|pt");
+  app.add_option("--size", texts.size, "pixels of the image, as in 640x480")
+      ->check(
+          expect("WxH in pixels, as in 640x480, each from 1 to " + std::to_string(largest_extent), is_size))
+      ->type_name("WxH");
+  app.add_option("-D", texts.overrides,
+                 "set a key of the scene before it is read, as in\n"
+                 "-D renderer.radius=0.1; may be repeated")
+      ->check(expect("key=value, as in renderer.radius=0.1", is_override))
+      ->type_name("key=value")
+      ->allow_extra_args(false);
+}
+
+/// Where the picture goes and how long the render runs.
+void add_output_options(CLI::App& app, Options& options) {
+  app.add_option("-o,--output", options.outputs,
+                 "image to write: .png (tone-mapped), .exr or .pfm (linear);\n"
+                 "may be repeated. Default: the scene's `path`, else its name\n"
+                 "with .png in the working directory")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  const auto count = whole_number(1, largest_int);
+  app.add_option("--passes", options.passes, "sppm: passes, in place of the scene's own")
+      ->check(count)
+      ->type_name("N");
+  app.add_option("--photons", options.photons, "sppm: photons a pass, in place of the scene's own")
+      ->check(count)
+      ->type_name("N");
+  app.add_option("--samples", options.samples, "pt: samples a pixel, in place of the scene's own")
+      ->check(count)
+      ->type_name("N");
+  app.add_option("--time", options.time_limit, "stop after this time if the passes are not done before")
+      ->check(expect("a positive number of seconds", is_seconds))
+      ->type_name("SECONDS");
+  app.add_option("--seed", options.seed, "1 by default; the same seed gives the same image to the bit")
+      ->check(whole_number(0, 4294967295))
+      ->type_name("N");
+}
+
+/// What it runs on and what it reports.
+void add_device_options(CLI::App& app, Options& options) {
+  app.add_option("--device", options.device,
+                 "index, cpu, gpu or part of a name (see `causticl devices`);\n"
+                 "default: the first GPU, else the first device")
+      ->type_name("SPEC");
+  app.add_option("--threads", options.threads, "compute units of a CPU device to use; default: all")
+      ->check(whole_number(1, largest_int))
+      ->type_name("N");
+  app.add_option("--kernel-dir", options.kernel_dir, "read the kernels from here, not from the binary")
+      ->check(expect("an existing folder", is_folder))
+      ->type_name("DIR");
+  app.add_option("--dump-kernels", options.dump_kernels, "write the kernels here as they were built")
+      ->type_name("DIR");
+  app.add_flag("--quiet", options.quiet, "print nothing but errors (and what --stats asks for)")
+      ->disable_flag_override();
+  app.add_flag("--stats", options.stats, "print a table of times, counts and memory at the end")
+      ->disable_flag_override();
+  app.add_option("--stats-json", options.stats_json, "write the same as one JSON object")->type_name("FILE");
+}
+
+/// CLI11's own wording where it is clear, ours where it is not.
+std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
+  std::string text = error.what();
+  const auto commands = app.get_subcommands();
+  const auto extras = app.remaining(true);
+  const std::string option = text.substr(0, text.find(':'));
+  if (commands.empty())
+    text = (extras.empty() ? "no command given" : "unknown command or option " + extras.front()) +
+           "; expected render, devices or info";
+  else if (dynamic_cast<const CLI::ExtrasError*>(&error))
+    text = "unknown option or argument " + (extras.empty() ? text : extras.front());
+  else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+    text = text.find("missing") != std::string::npos ? option + ": a value is missing"
+                                                     : option + ": given more than once";
+  return text + " (see `causticl " + (commands.empty() ? "" : commands.front()->get_name() + " ") +
+         "--help`)";
+}
+
+void check_folder_of(const std::string& file, const std::string& option) {
+  const std::filesystem::path path(file);
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw UserError(option + " " + file + ": there is no folder " + folder.string() + "; create it first");
+  if (std::filesystem::is_directory(path, ignored))
+    throw UserError(option + " " + file + ": this is a folder; expected the name of a file");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw UserError(option + " " + file + ": the folder " + folder.string() + " cannot be written to");
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  CLI::App app("CaustiCL: a progressive photon mapper and path tracer for OpenCL devices", "causticl");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "causticl " CAUSTICL_VERSION);
+  app.footer(exit_codes);
+  app.get_formatter()->column_width(30);
+
+  CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
+  add_scene_options(render, options, texts);
+  add_output_options(render, options);
+  add_device_options(render, options);
+  render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
+                exit_codes);
+  CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
+  devices.footer("The number in front of a device is its index for `causticl render --device`.");
+  CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
+  add_scene_options(info, options, texts);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.text = app.help();
+    return options;
+  } catch (const CLI::CallForVersion& version) {
+    options.text = std::string(version.what()) + "\n";
+    return options;
+  } catch (const CLI::ParseError& error) {
+    throw UserError(explanation(error, app));
+  }
+
+  options.command = render.parsed()    ? Options::Command::render
+                    : devices.parsed() ? Options::Command::devices
+                                       : Options::Command::info;
+  if (!texts.integrator.empty())
+    options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
+  if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
+  for (const auto& text : texts.overrides) {
+    const auto equals = text.find('=');
+    options.scene_options.overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return options;
+}
+
+void apply_options(const Options& options, Scene& scene) {
+  auto& renderer = scene.renderer;
+  const auto apply = [&](const auto& value, auto& target, Integrator owner, const std::string& option) {
+    if (!value) return;
+    if (renderer.integrator != owner) {
+      const bool for_pt = owner == Integrator::pt;
+      scene.notices.push_back(option + " has no effect: it belongs to " + (for_pt ? "pt" : "sppm") +
+                              " and this render uses " + (for_pt ? "sppm" : "pt"));
+      return;
+    }
+    target = *value;
+  };
+  apply(options.passes, renderer.passes, Integrator::sppm, "--passes");
+  apply(options.photons, renderer.photons, Integrator::sppm, "--photons");
+  apply(options.samples, renderer.samples, Integrator::pt, "--samples");
+}
+
+std::vector<std::string> output_files(const Options& options, const Scene& scene) {
+  if (!options.outputs.empty()) return options.outputs;
+  if (!scene.output.empty()) return {scene.output};
+  return {std::filesystem::path(options.scene).stem().string() + ".png"};
+}
+
+void check_outputs(const Options& options, const std::vector<std::string>& outputs) {
+  for (const auto& file : outputs) check_output(file);
+  if (!options.stats_json.empty()) check_folder_of(options.stats_json, "--stats-json");
+}
+
+std::string threads_notice(const Options& options, const DeviceInfo& info) {
+  if (options.threads == 0) return {};
+  if (info.type != "cpu") return "--threads has no effect: " + info.name + " is not a CPU device";
+  if (options.threads > info.compute_units)
+    return "--threads " + std::to_string(options.threads) + ": the device has " +
+           std::to_string(info.compute_units) + " compute units, and all are used";
+  return {};
+}
+
+RenderOptions render_options(const Options& options, const std::vector<std::string>& outputs) {
+  RenderOptions result;
+  result.outputs = outputs;
+  result.time_limit = options.time_limit;
+  result.seed = options.seed;
+  result.kernel_dir = options.kernel_dir;
+  result.dump_kernels = options.dump_kernels;
+  return result;
+}
+
+}  // namespace causticl

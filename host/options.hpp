@@ -1,0 +1,54 @@
+// The command line: what the user asked for, checked, and what it changes in a scene.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device.hpp"
+#include "render.hpp"
+#include "scene.hpp"
+
+namespace causticl {
+
+struct Options {
+  enum class Command { render, devices, info, print };
+  Command command = Command::print;
+  std::string text;  // Command::print: the help or version that was asked for
+
+  std::string scene;  // file; render and info
+  SceneOptions scene_options;
+
+  std::vector<std::string> outputs;  // empty: the scene says
+  std::optional<int> passes, samples;
+  std::optional<std::int64_t> photons;
+  std::optional<double> time_limit;  // seconds
+  std::uint32_t seed = 1;
+  std::string device;    // as find_device takes it
+  unsigned threads = 0;  // 0: all
+  std::string kernel_dir, dump_kernels;
+  bool quiet = false, stats = false;
+  std::string stats_json;  // file; empty: none
+};
+
+/// Reads the command line. Throws UserError, of one line, for whatever is not understood.
+Options parse_options(int argc, const char* const* argv);
+
+/// Puts --passes, --photons and --samples in place of the scene's own, and adds a notice to the scene for
+/// each one that its integrator has no use for.
+void apply_options(const Options& options, Scene& scene);
+
+/// The files to write: those of -o, else the scene's `path`, else the scene's name with .png in the working
+/// directory.
+std::vector<std::string> output_files(const Options& options, const Scene& scene);
+
+/// Throws UserError if an output or the statistics cannot be written where the options say.
+void check_outputs(const Options& options, const std::vector<std::string>& outputs);
+
+/// What the user should know of --threads on this device; empty where it does what it says.
+std::string threads_notice(const Options& options, const DeviceInfo& info);
+
+RenderOptions render_options(const Options& options, const std::vector<std::string>& outputs);
+
+}  // namespace causticl

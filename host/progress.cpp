@@ -1,0 +1,145 @@
+#include "progress.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace causticl {
+namespace {
+
+constexpr int unlimited = 1 << 20;                        // columns
+constexpr double bar_interval = 0.1, line_interval = 10;  // seconds between two prints
+
+template <typename... Arguments>
+std::string formatted(const char* format, Arguments... arguments) {
+  std::string text(static_cast<std::size_t>(std::snprintf(nullptr, 0, format, arguments...)), '\0');
+  std::snprintf(text.data(), text.size() + 1, format, arguments...);
+  return text;
+}
+
+int terminal_width(std::FILE* stream) {
+  winsize size{};
+  const bool known = ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+const char* reason(StopReason stop) {
+  switch (stop) {
+    case StopReason::time:
+      return "time limit reached";
+    case StopReason::interrupted:
+      return "interrupted";
+    case StopReason::passes:
+      break;
+  }
+  return "done";
+}
+
+}  // namespace
+
+std::string si_number(double value) {
+  const char* const prefixes[] = {"", " k", " M", " G", " T", " P"};
+  std::size_t prefix = 0;
+  // 999.5 would be printed as 1000, or as 1e+03.
+  while (value >= 999.5 && prefix + 1 < std::size(prefixes)) {
+    value /= 1000;
+    ++prefix;
+  }
+  const int decimals = prefix == 0 || value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
+  return formatted("%.*f%s", decimals, value, prefixes[prefix]);
+}
+
+std::string clock_time(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0) return "?";
+  const auto whole = static_cast<long long>(std::min(seconds, 1e12) + 0.5);
+  if (whole < 3600) return formatted("%lld:%02lld", whole / 60, whole % 60);
+  return formatted("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string progress_text(const Progress& now, double photons_per_second, double rays_per_second, int width) {
+  // In the order of their worth: those at the end give way first.
+  std::vector<std::string> parts = {formatted("pass %llu/%llu", static_cast<unsigned long long>(now.pass),
+                                              static_cast<unsigned long long>(now.passes)),
+                                    clock_time(now.seconds) + " elapsed",
+                                    clock_time(now.remaining) + " left"};
+  if (now.photons) parts.push_back(si_number(photons_per_second) + " photons/s");
+  parts.push_back(si_number(rays_per_second) + " rays/s");
+
+  std::string text;
+  for (const auto& part : parts) {
+    const std::string longer = text.empty() ? part : text + ", " + part;
+    if (longer.size() > static_cast<std::size_t>(width)) break;
+    text = longer;
+  }
+  return text;
+}
+
+std::string progress_bar(const Progress& now, double photons_per_second, double rays_per_second, int width) {
+  const std::string text = progress_text(now, photons_per_second, rays_per_second, width);
+  const int room = std::min(width - static_cast<int>(text.size()) - 3, 40);
+  if (room < 5) return text;
+  const double share = now.passes ? static_cast<double>(now.pass) / static_cast<double>(now.passes) : 0;
+  const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * room);
+  std::string bar(static_cast<std::size_t>(room), '.');
+  std::fill_n(bar.begin(), filled, '#');
+  return "[" + bar + "] " + text;
+}
+
+ProgressReport::ProgressReport(std::FILE* stream, bool quiet)
+    : stream_(stream), quiet_(quiet), terminal_(isatty(fileno(stream)) == 1) {}
+
+ProgressReport::~ProgressReport() { clear_bar(); }
+
+void ProgressReport::clear_bar() {
+  if (bar_drawn_) std::fputs("\r\033[K", stream_);
+  bar_drawn_ = false;
+}
+
+void ProgressReport::note(const std::string& text) {
+  if (quiet_ || text.empty() || !noted_.insert(text).second) return;
+  clear_bar();
+  std::fprintf(stream_, "causticl: note: %s\n", text.c_str());
+}
+
+void ProgressReport::update(const Progress& now) {
+  if (quiet_) return;
+  const bool is_first = first_.pass == 0, is_last = now.pass == now.passes;
+  if (is_first) first_ = now;
+  const double since_print = now.seconds - printed_.seconds;
+  const bool due = is_first || is_last ||
+                   (terminal_ ? since_print >= bar_interval
+                              : since_print >= line_interval || std::has_single_bit(now.pass));
+  if (!due) return;
+  printed_ = now;
+
+  // Start-up (kernels, tree) is left out of the rates as soon as two passes can be told from it.
+  const Progress start = now.pass > first_.pass ? first_ : Progress{};
+  const double seconds = std::max(now.seconds - start.seconds, 1e-9);
+  const double photons = static_cast<double>(now.photons - start.photons) / seconds;
+  const double rays = static_cast<double>(now.rays - start.rays) / seconds;
+  if (terminal_) {
+    // One column is left free: a full line would wrap on some terminals.
+    std::fprintf(stream_, "\r%s\033[K",
+                 progress_bar(now, photons, rays, terminal_width(stream_) - 1).c_str());
+    bar_drawn_ = true;
+  } else {
+    std::fprintf(stream_, "causticl: %s\n", progress_text(now, photons, rays, unlimited).c_str());
+  }
+  std::fflush(stream_);
+}
+
+void ProgressReport::finish(const std::vector<std::string>& files, const Statistics& statistics) {
+  if (quiet_) return;
+  clear_bar();
+  std::string names;
+  for (const auto& file : files) names += (names.empty() ? "" : ", ") + file;
+  std::fprintf(stream_, "causticl: wrote %s: %llu passes in %.1f s (%s)\n", names.c_str(),
+               static_cast<unsigned long long>(statistics.passes), statistics.seconds,
+               reason(statistics.stop));
+  std::fflush(stream_);
+}
+
+}  // namespace causticl

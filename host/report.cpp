@@ -1,0 +1,168 @@
+#include "report.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+#include "progress.hpp"
+
+namespace causticl {
+namespace {
+
+using Number = unsigned long long;
+
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+  va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  const auto length = static_cast<std::size_t>(std::vsnprintf(nullptr, 0, format, arguments));
+  std::string line(length + 1, '\0');
+  std::vsnprintf(line.data(), line.size(), format, again);
+  va_end(again);
+  va_end(arguments);
+  text.append(line, 0, length);
+}
+
+const char* name(StopReason stop) {
+  return stop == StopReason::time ? "time" : stop == StopReason::interrupted ? "interrupted" : "passes";
+}
+
+std::string kernel_table(const std::map<std::string, KernelTime>& kernels) {
+  std::vector<std::pair<std::string, KernelTime>> rows(kernels.begin(), kernels.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.second.milliseconds > b.second.milliseconds;
+  });
+  double total = 0;
+  for (const auto& row : rows) total += row.second.milliseconds;
+
+  std::string text;
+  append(text, "  %-28s %12s %9s %7s\n", "kernel", "ms", "launches", "share");
+  for (const auto& [kernel, time] : rows)
+    append(text, "  %-28s %12.2f %9llu %6.1f%%\n", kernel.c_str(), time.milliseconds, Number(time.launches),
+           total > 0 ? 100 * time.milliseconds / total : 0);
+  append(text, "  %-28s %12.2f\n", "all kernels", total);
+  return text;
+}
+
+}  // namespace
+
+std::string byte_size(double bytes) {
+  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1024 && unit + 1 < std::size(units); ++unit) bytes /= 1024;
+  std::string text;
+  append(text, unit == 0 ? "%.0f %s" : "%.2f %s", bytes, units[unit]);
+  return text;
+}
+
+std::string statistics_table(const Statistics& s) {
+  std::string text;
+  append(text, "  %-28s %s\n", "device", s.device.c_str());
+  append(text, "  %-28s %llu (stopped by: %s)\n", "passes", Number(s.passes), name(s.stop));
+  append(text, "  %-28s %.3f s\n", "time", s.seconds);
+  append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
+  append(text, "  %-28s %.3f s\n", "  building kernels", s.kernel_build_seconds);
+  append(text, "  %-28s %.3f s\n", "  building the tree", s.tree_build_seconds);
+  append(text, "  %-28s %llu triangles, %llu other shapes, %llu emitters\n", "scene", Number(s.triangles),
+         Number(s.shapes), Number(s.emitters));
+  append(text, "  %-28s %llu (%s/s)\n", "rays", Number(s.rays), si_number(s.rays_per_second).c_str());
+  if (s.photons) {
+    append(text, "  %-28s %llu (%s/s)\n", "photons", Number(s.photons),
+           si_number(s.photons_per_second).c_str());
+    append(text, "  %-28s %llu\n", "  stored in the last pass", Number(s.stored_photons));
+    append(text, "  %-28s %g (%s)\n", "first radius", s.first_radius,
+           s.first_radius_chosen ? "chosen from the scene" : "of the scene file");
+  }
+  append(text, "  %-28s %s, %.1f bytes a pixel\n", "device memory",
+         byte_size(static_cast<double>(s.device_bytes)).c_str(), s.bytes_per_pixel);
+  append(text, "  %-28s %s\n\n", "peak memory of the process",
+         byte_size(static_cast<double>(s.peak_memory_bytes)).c_str());
+  text += kernel_table(s.kernels);
+
+  if (s.skipped_triangles)
+    append(text, "warning: %llu triangles without area were left out\n", Number(s.skipped_triangles));
+  if (s.non_finite)
+    append(text, "warning: %llu samples were not finite and were left out\n", Number(s.non_finite));
+  if (s.saturated)
+    append(text, "warning: %llu photons were brighter than their record holds and were clamped\n",
+           Number(s.saturated));
+  return text;
+}
+
+std::string statistics_json(const Statistics& s) {
+  nlohmann::ordered_json milliseconds = nlohmann::ordered_json::object(), launches = milliseconds;
+  for (const auto& [kernel, time] : s.kernels) {
+    milliseconds[kernel] = time.milliseconds;
+    launches[kernel] = time.launches;
+  }
+  const nlohmann::ordered_json object = {{"version", CAUSTICL_VERSION},
+                                         {"device", s.device},
+                                         {"stop", name(s.stop)},
+                                         {"seconds", s.seconds},
+                                         {"first_pass_seconds", s.first_pass_seconds},
+                                         {"kernel_build_seconds", s.kernel_build_seconds},
+                                         {"tree_build_seconds", s.tree_build_seconds},
+                                         {"passes", s.passes},
+                                         {"photons", s.photons},
+                                         {"photons_per_second", s.photons_per_second},
+                                         {"rays", s.rays},
+                                         {"rays_per_second", s.rays_per_second},
+                                         {"triangles", s.triangles},
+                                         {"shapes", s.shapes},
+                                         {"skipped_triangles", s.skipped_triangles},
+                                         {"emitters", s.emitters},
+                                         {"stored_photons", s.stored_photons},
+                                         {"first_radius", s.first_radius},
+                                         {"first_radius_chosen", s.first_radius_chosen},
+                                         {"device_bytes", s.device_bytes},
+                                         {"peak_memory_bytes", s.peak_memory_bytes},
+                                         {"bytes_per_pixel", s.bytes_per_pixel},
+                                         {"non_finite", s.non_finite},
+                                         {"saturated", s.saturated},
+                                         {"kernels", milliseconds},
+                                         {"kernel_launches", launches}};
+  // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_statistics(const std::string& file, const Statistics& statistics) {
+  const std::string temporary = file + "." + std::to_string(getpid()) + ".tmp";
+  std::ofstream stream(temporary, std::ios::binary);
+  stream << statistics_json(statistics);
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(temporary, file, error);
+  if (!stream || error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw UserError("--stats-json " + file + ": cannot be written" + (error ? ": " + error.message() : ""));
+  }
+}
+
+std::string device_list(const std::vector<DeviceInfo>& devices) {
+  if (devices.empty()) find_device("");  // throws the message that says what to install
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const DeviceInfo& d = devices[i];
+    append(text, "%zu: %s\n", i, d.name.c_str());
+    append(text, "   type            %s\n", d.type.c_str());
+    append(text, "   platform        %s\n", d.platform_name.c_str());
+    append(text, "   vendor          %s\n", d.vendor.c_str());
+    append(text, "   driver          %s\n", d.driver.c_str());
+    append(text, "   version         %s\n", d.opencl_version.c_str());
+    append(text, "   compute units   %u\n", d.compute_units);
+    append(text, "   memory          %s\n", byte_size(static_cast<double>(d.global_memory)).c_str());
+    append(text, "   max allocation  %s\n", byte_size(static_cast<double>(d.largest_allocation)).c_str());
+    append(text, "   max work-group  %zu\n", d.largest_work_group);
+    append(text, "   fp64            %s\n", d.fp64 ? "yes" : "no");
+  }
+  return text;
+}
+
+}  // namespace causticl

@@ -1,0 +1,243 @@
+// What a scene holds, in words and numbers.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "report.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr std::size_t longest_list = 10;  // lines that one part may take
+
+std::string triple(Vec3 v) {
+  std::ostringstream text;
+  text << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  return text.str();
+}
+
+/// "1 mesh", "3 meshes".
+std::string count(std::size_t number, const std::string& noun) {
+  const char* ending = number == 1                                                      ? ""
+                       : noun.back() == 'h' || noun.back() == 'x' || noun.back() == 's' ? "es"
+                                                                                        : "s";
+  return std::to_string(number) + " " + noun + ending;
+}
+
+const char* shape_name(Object::Shape shape) {
+  switch (shape) {
+    case Object::Shape::sphere:
+      return "sphere";
+    case Object::Shape::plane:
+      return "plane";
+    case Object::Shape::rectangle:
+      return "rectangle";
+    case Object::Shape::disk:
+      return "disk";
+    case Object::Shape::box:
+      return "box";
+    case Object::Shape::mesh:
+      return "mesh";
+    case Object::Shape::bezier:
+      break;
+  }
+  return "bezier_rotate";
+}
+
+const char* material_name(MaterialSpec::Kind kind) {
+  switch (kind) {
+    case MaterialSpec::Kind::diffuse:
+      return "diffuse";
+    case MaterialSpec::Kind::mirror:
+      return "mirror";
+    case MaterialSpec::Kind::glass:
+      break;
+  }
+  return "glass";
+}
+
+struct Bounds {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+
+  bool empty() const { return low.x > high.x; }
+  void add(Vec3 p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  /// The image of the local ellipsoid about `centre` with these half axes.
+  void add_ellipsoid(const Transform& transform, Vec3 centre, Vec3 half_axes) {
+    Vec3 extent;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 row = transform.rows[static_cast<std::size_t>(axis)];
+      extent[axis] = length({row.x * half_axes.x, row.y * half_axes.y, row.z * half_axes.z});
+    }
+    add(transform.point(centre) - extent);
+    add(transform.point(centre) + extent);
+  }
+  void add_box(const Transform& transform, Vec3 size) {
+    for (int corner = 0; corner < 8; ++corner)
+      add(transform.point({size.x * ((corner & 1) - 0.5), size.y * ((corner >> 1 & 1) - 0.5),
+                           size.z * ((corner >> 2 & 1) - 0.5)}));
+  }
+};
+
+void bounds_add(Bounds& bounds, const Scene& scene, const Object& object) {
+  const double r = object.radius;
+  switch (object.shape) {
+    case Object::Shape::plane:
+      break;  // infinite
+    case Object::Shape::sphere:
+      bounds.add_ellipsoid(object.transform, {}, {r, r, r});
+      break;
+    case Object::Shape::disk:
+      bounds.add_ellipsoid(object.transform, {}, {r, r, 0});
+      break;
+    case Object::Shape::rectangle:
+      bounds.add_box(object.transform, {1, 1, 0});
+      break;
+    case Object::Shape::box:
+      bounds.add_box(object.transform, object.size);
+      break;
+    case Object::Shape::mesh:
+      for (const auto& p : scene.meshes[static_cast<std::size_t>(object.mesh)].positions)
+        bounds.add(object.transform.point({p[0], p[1], p[2]}));
+      break;
+    case Object::Shape::bezier:
+      // A Bezier curve lies in the convex hull of its control points, and so does what it sweeps.
+      for (const auto& p : object.points)
+        bounds.add_ellipsoid(object.transform, {0, p[1], 0}, {p[0], 0, p[0]});
+      break;
+  }
+}
+
+void print_image(std::ostream& text, const Scene& scene) {
+  text << "image       " << scene.width << " x " << scene.height << " pixels";
+  if (!scene.output.empty()) text << ", to " << scene.output;
+  text << "\n";
+}
+
+void print_integrator(std::ostream& text, const Scene& scene) {
+  const RendererSpec& r = scene.renderer;
+  if (r.integrator == Integrator::pt) {
+    text << "integrator  pt: " << count(static_cast<std::size_t>(r.samples), "sample") << " a pixel";
+  } else {
+    text << "integrator  sppm: " << r.passes << (r.passes == 1 ? " pass of " : " passes of ") << r.photons
+         << " photons, " << count(static_cast<std::size_t>(r.visible_points), "visible point")
+         << " a pixel, first radius ";
+    if (r.radius)
+      text << *r.radius;
+    else
+      text << "chosen from the scene";
+    if (r.schedule == Schedule::geometric)
+      text << ", geometric schedule with radius decay " << r.radius_decay;
+    else
+      text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
+           << r.alpha;
+    text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
+  }
+  text << "; at most " << count(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";
+}
+
+void print_camera(std::ostream& text, const CameraSpec& camera) {
+  constexpr double degrees = 57.29577951308232;
+  text << "camera      at " << triple(camera.origin) << " toward " << triple(camera.axis)
+       << ", vertical field of view " << 2 * std::atan(length(camera.up) / 2) * degrees << " degrees";
+  if (camera.plane_distance != 0) text << ", rays start " << camera.plane_distance << " ahead";
+  if (camera.aperture > 0)
+    text << ", lens radius " << camera.aperture << ", sharp at " << camera.focal_distance;
+  text << "\n";
+}
+
+void print_objects(std::ostream& text, const Scene& scene) {
+  std::map<std::string, std::size_t> shapes;
+  for (const auto& object : scene.objects) ++shapes[shape_name(object.shape)];
+  text << "objects     " << scene.objects.size();
+  const char* separator = ": ";
+  for (const auto& [shape, number] : shapes) {
+    text << separator << count(number, shape);
+    separator = ", ";
+  }
+  text << "\n";
+
+  std::size_t triangles = 0;
+  std::map<int, std::size_t> uses;  // of each mesh
+  for (const auto& object : scene.objects) {
+    if (object.shape != Object::Shape::mesh) continue;
+    ++uses[object.mesh];
+    triangles += scene.meshes[static_cast<std::size_t>(object.mesh)].triangles();
+  }
+  for (const auto& [index, number] : uses) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+    text << "  mesh      " << mesh.file << ": " << count(mesh.triangles(), "triangle");
+    if (number > 1) text << ", used " << number << " times";
+    text << "\n";
+  }
+  if (uses.size() > 1) text << "  in all    " << count(triangles, "triangle") << "\n";
+}
+
+void print_materials(std::ostream& text, const Scene& scene) {
+  std::map<std::string, std::size_t> kinds;
+  for (const auto& material : scene.materials) ++kinds[material_name(material.kind)];
+  text << "materials   " << scene.materials.size();
+  const char* separator = ": ";
+  for (const auto& [kind, number] : kinds) {
+    text << separator << number << " " << kind;
+    separator = ", ";
+  }
+  text << "\ntextures    " << scene.textures.size() << "\n";
+  for (const auto& texture : scene.textures) {
+    if (texture.kind == TextureSpec::Kind::checker) {
+      text << "  checker   of " << triple(texture.a) << " and " << triple(texture.b) << "\n";
+      continue;
+    }
+    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    text << "  image     " << image.file << ": " << image.width << " x " << image.height
+         << (texture.bilinear ? ", bilinear" : ", nearest") << "\n";
+  }
+}
+
+void print_emitters(std::ostream& text, const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const auto& object : scene.objects) {
+    const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (!(max_component(material.emission) > 0)) continue;
+    lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : shape_name(object.shape)) +
+                    ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
+  }
+  text << "emitters    " << lines.size() << "\n";
+  for (std::size_t i = 0; i < std::min(lines.size(), longest_list); ++i) text << "  " << lines[i] << "\n";
+  if (lines.size() > longest_list) text << "  and " << lines.size() - longest_list << " more\n";
+}
+
+void print_bounds(std::ostream& text, const Scene& scene) {
+  Bounds bounds;
+  for (const auto& object : scene.objects) bounds_add(bounds, scene, object);
+  text << "bounds      ";
+  if (bounds.empty())
+    text << "none: every object is infinite\n";
+  else
+    text << triple(bounds.low) << " to " << triple(bounds.high) << ", infinite planes apart\n";
+}
+
+}  // namespace
+
+std::string scene_summary(const Scene& scene) {
+  std::ostringstream text;
+  text << "scene       " << scene.file << "\n";
+  print_image(text, scene);
+  print_integrator(text, scene);
+  print_camera(text, scene.camera);
+  print_objects(text, scene);
+  print_materials(text, scene);
+  print_emitters(text, scene);
+  print_bounds(text, scene);
+  for (const auto& notice : scene.notices) text << "note        " << notice << "\n";
+  return text.str();
+}
+
+}  // namespace causticl
