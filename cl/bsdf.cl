@@ -23,20 +23,20 @@ INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textu
   return bsdf;
 }
 
-// Reflectance of unpolarised light at a smooth boundary; `cosine` >= 0 is that of the angle of incidence, eta
-// the index beyond over the index before the boundary. Sets *cosine_t, that of the refracted angle; total
+// Reflectance of unpolarised light at a smooth boundary; `cosine` is that of the angle of incidence, eta the
+// index beyond over the index before the boundary. Sets *cosine_t, that of the refracted angle; total
 // reflection returns 1 and leaves it 0. (Born & Wolf, section 1.5.2)
 INLINE real fresnel_dielectric(real cosine, real eta, real *cosine_t) {
-  real sine2_t = max((real)0, 1 - cosine * cosine) / (eta * eta);
+  cosine = clamp(cosine, (real)0, (real)1);
+  // eta^2 - sin^2 in a form that cancels nothing: grazing rays and nearly equal indices stay exact.
+  real square = (eta - 1) * (eta + 1) + cosine * cosine;
   *cosine_t = 0;
-  if (sine2_t >= 1) return 1;
-  real c = sqrt(1 - sine2_t);
-  *cosine_t = c;
-  real parallel_sum = eta * cosine + c, perpendicular_sum = cosine + eta * c;
-  // At grazing incidence between equal indices both sums vanish: nothing is reflected there.
-  if (parallel_sum <= 0 || perpendicular_sum <= 0) return eta == 1 ? 0 : 1;
-  real parallel = (eta * cosine - c) / parallel_sum;
-  real perpendicular = (cosine - eta * c) / perpendicular_sum;
+  // At grazing incidence between equal indices nothing is reflected.
+  if (square <= 0) return eta == 1 ? 0 : 1;
+  real c = sqrt(square) / eta;
+  *cosine_t = fmin(c, (real)1);
+  real parallel = (eta * cosine - c) / (eta * cosine + c);
+  real perpendicular = (cosine - eta * c) / (cosine + eta * c);
   return (real)0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
@@ -66,11 +66,16 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
   return sample;
 }
 
+// A grazing ray is lifted by this cosine off the surface where rounding might put it on the other side.
+#define GRAZING_COSINE ((real)1e-6f)
+
 // A mirror image of d about n, and about the geometric normal where that one would end under the surface.
 INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {
   real3 reflected = d - 2 * dot(d, n) * n;
   real3 g = surface->geometric_normal;
-  if (dot(reflected, g) * dot(d, g) >= 0) reflected = d - 2 * dot(d, g) * g;
+  real side = dot(d, g) < 0 ? 1 : -1;
+  if (!(side * dot(reflected, g) >= GRAZING_COSINE))
+    reflected = d + side * 2 * fmax(fabs(dot(d, g)), GRAZING_COSINE) * g;
   return normalize(reflected);
 }
 
@@ -87,14 +92,14 @@ INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d
   if (random.z >= reflectance) {
     real3 refracted = d / eta + (cosine / eta - cosine_t) * n;
     // A refracted ray that a shading normal bends back over the surface is bent by the geometric one.
-    if (dot(refracted, g) * dot(d, g) <= 0) {
-      real3 facing = entering ? g : -g;
+    real3 facing = entering ? g : -g;
+    if (!(dot(refracted, facing) <= -GRAZING_COSINE)) {
       cosine = fmin(-dot(d, facing), (real)1);
       if (fresnel_dielectric(cosine, eta, &cosine_t) >= 1) {
         sample.direction = mirror_direction(surface, d, facing);
         return sample;
       }
-      refracted = d / eta + (cosine / eta - cosine_t) * facing;
+      refracted = d / eta + (cosine / eta - fmax(cosine_t, GRAZING_COSINE)) * facing;
     }
     sample.direction = normalize(refracted);
     if (radiance) sample.weight = sample.weight / (eta * eta);

@@ -18,9 +18,10 @@ INLINE int texture_wrap(int x, int n) {
 static real4 texture_lookup(global const Texture *texture, global const half *texels, real2 uv) {
   real u = uv.x * texture->scale.x, v = uv.y * texture->scale.y;
   if (texture->kind == TEXTURE_CHECKER) {
-    // The parity of floor() as a number: an int would overflow far out on a plane.
-    real cell = floor(u) + floor(v);
-    bool even = cell - 2 * floor(cell * (real)0.5) == 0;
+    // Parities as numbers, and of each axis alone: an int would overflow far out on a plane, and the sum of the
+    // two would round.
+    real column = floor(u), row = floor(v);
+    bool even = column - 2 * floor(column * (real)0.5) == row - 2 * floor(row * (real)0.5);
     float4 color = even ? texture->a : texture->b;
     return (real4)(color.x, color.y, color.z, 1);
   }
