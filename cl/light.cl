@@ -1,4 +1,5 @@
 // Emitters: choosing one, drawing a point on it, light arriving from it, photons leaving it.
+#include "rng.cl"
 #include "scene.cl"
 
 // A light's contribution to a point: radiance / pdf, not yet multiplied by BSDF, cosine and visibility.

@@ -141,11 +141,12 @@ void Device::clear(const cl::Buffer& target, std::size_t bytes) {
   if (bytes) queue_.enqueueFillBuffer(target, cl_uchar(0), 0, bytes);
 }
 
-void Device::launch(cl::Kernel& kernel, std::size_t items, std::size_t local) {
+void Device::launch(cl::Kernel& kernel, std::size_t items) {
   if (items == 0) return;
   cl::Event event;
-  queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + local - 1) / local * local),
-                              cl::NDRange(local), nullptr, &event);
+  const std::size_t groups = (items + local_size_ - 1) / local_size_;
+  queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * local_size_),
+                              cl::NDRange(local_size_), nullptr, &event);
   pending_.emplace_back(kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), event);
   // Events hold driver memory: drop those that are done before many gather.
   if (pending_.size() >= 4096) collect_events();

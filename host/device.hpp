@@ -70,9 +70,9 @@ class Device {
   /// Fills the first `bytes` of a buffer with zero bits.
   void clear(const cl::Buffer& target, std::size_t bytes);
 
-  /// Enqueues `kernel` over at least `items` work-items in groups of `local`; the kernel must return at once
-  /// for get_global_id(0) >= items. The time is added to kernel_times() under the kernel's name.
-  void launch(cl::Kernel& kernel, std::size_t items, std::size_t local = default_local_size);
+  /// Enqueues `kernel` over at least `items` work-items in groups of local_size(); the kernel must return at
+  /// once for get_global_id(0) >= items. The time is added to kernel_times() under the kernel's name.
+  void launch(cl::Kernel& kernel, std::size_t items);
 
   /// Waits for the queue, then returns what has been launched so far.
   const std::map<std::string, KernelTime>& kernel_times();
@@ -80,14 +80,16 @@ class Device {
   double build_seconds() const { return build_seconds_; }
   std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
-  // PoCL compiles a kernel once for each local size: one size for all keeps start-up short.
-  static constexpr std::size_t default_local_size = 64;
+  /// Work-items of a group, one size for all kernels: PoCL compiles a kernel anew for each size.
+  std::size_t local_size() const { return local_size_; }
+  void set_local_size(std::size_t size) { local_size_ = size; }
 
  private:
   DeviceInfo info_;
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
+  std::size_t local_size_ = 64;
   double build_seconds_ = 0;
   std::uint64_t allocated_bytes_ = 0;
   std::vector<std::pair<std::string, cl::Event>> pending_;

@@ -16,11 +16,11 @@ namespace causticl {
 
 /// What bounds a render and where its picture goes.
 struct RenderOptions {
-  std::vector<std::string> outputs;     // files, by extension; rewritten at checkpoints
-  std::optional<double> time_limit;     // seconds from the start of render_scene
+  std::vector<std::string> outputs;  // files, by extension; rewritten at checkpoints
+  std::optional<double> time_limit;  // seconds from the start of render_scene
   std::uint32_t seed = 1;
-  std::string kernel_dir;               // --kernel-dir: read cl/ live; empty: the embedded sources
-  std::string dump_kernels;             // --dump-kernels: folder that receives what was built; empty: none
+  std::string kernel_dir;    // --kernel-dir: read cl/ live; empty: the embedded sources
+  std::string dump_kernels;  // --dump-kernels: folder that receives what was built; empty: none
 };
 
 /// Where a render stands, after each pass.
@@ -37,19 +37,19 @@ enum class StopReason { passes, time, interrupted };
 struct Statistics {
   std::string device;
   StopReason stop = StopReason::passes;
-  double seconds = 0;               // all of render_scene
-  double first_pass_seconds = 0;    // from the start to the launch of the first pass
+  double seconds = 0;             // all of render_scene
+  double first_pass_seconds = 0;  // from the start to the launch of the first pass
   double kernel_build_seconds = 0;
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
-  std::uint64_t stored_photons = 0;  // in the last pass
-  double first_radius = 0;           // sppm
-  bool first_radius_chosen = false;  // from the scene, not from the file
-  std::uint64_t device_bytes = 0;    // largest amount allocated on the device
-  std::uint64_t peak_memory_bytes = 0;  // of the process
-  double bytes_per_pixel = 0;        // device memory that grows with the number of pixels
+  std::uint64_t stored_photons = 0;             // in the last pass
+  double first_radius = 0;                      // sppm
+  bool first_radius_chosen = false;             // from the scene, not from the file
+  std::uint64_t device_bytes = 0;               // largest amount allocated on the device
+  std::uint64_t peak_memory_bytes = 0;          // of the process
+  double bytes_per_pixel = 0;                   // device memory that grows with the number of pixels
   std::uint64_t non_finite = 0, saturated = 0;  // samples left out; photons too bright for their record
   std::map<std::string, KernelTime> kernels;
 };

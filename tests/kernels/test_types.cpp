@@ -97,7 +97,8 @@ const std::vector<Field> fields{
 }  // namespace
 
 TEST_CASE("shared structs have the same layout on the host and on the device") {
-  std::string text = "#include \"types.h\"\nkernel void offsets(global uint *out) {\n";
+  std::string text =
+      "#include \"types.h\"\nkernel void offsets(global uint *out) {\n  if (get_global_id(0) != 0) return;\n";
   for (std::size_t i = 0; i < fields.size(); ++i)
     text += "  { global " + std::string(fields[i].type) + " *p = 0; out[" + std::to_string(i) +
             "] = (uint)(size_t)&p->" + fields[i].name + "; }\n";
@@ -106,7 +107,7 @@ TEST_CASE("shared structs have the same layout on the host and on the device") {
   auto out = test_device().buffer(fields.size() * sizeof(uint), "offsets");
   cl::Kernel kernel(program, "offsets");
   kernel.setArg(0, out);
-  test_device().launch(kernel, 1, 1);
+  test_device().launch(kernel, 1);
   const auto offsets = test_device().download<uint>(out, fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
     INFO(fields[i].type << "." << fields[i].name);

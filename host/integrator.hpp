@@ -1,0 +1,44 @@
+// What the pass loop asks of an integrator.
+#pragma once
+
+#include <cstdint>
+
+#include "types.h"
+
+namespace causticl {
+
+/// One progressive estimator: every pass adds one estimate of every pixel to the film.
+class PassIntegrator {
+ public:
+  virtual ~PassIntegrator() = default;
+
+  /// Enqueues pass number `pass` (from 0). Passes run in order.
+  virtual void enqueue_pass(std::uint32_t pass) = 0;
+
+  /// Waits for all passes enqueued so far and returns the device's counters, each summed without wrapping.
+  struct Totals {
+    std::uint64_t photons_emitted = 0, photons_stored_last_pass = 0, rays = 0, non_finite = 0, saturated = 0;
+  };
+  virtual Totals finish() = 0;
+
+  /// Device memory that grows with the number of pixels, without the film.
+  virtual double bytes_per_pixel() const = 0;
+};
+
+/// The counters of a device, which wrap at 2^32, as totals that do not.
+class CounterTotals {
+ public:
+  /// Takes a fresh reading; at most 2^32 - 1 events may have happened since the last.
+  void update(const Counters& now) {
+    rays += static_cast<uint>(now.rays - last_.rays);
+    non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
+    saturated += static_cast<uint>(now.saturated - last_.saturated);
+    last_ = now;
+  }
+  std::uint64_t rays = 0, non_finite = 0, saturated = 0;
+
+ private:
+  Counters last_{};
+};
+
+}  // namespace causticl

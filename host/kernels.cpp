@@ -1,0 +1,45 @@
+#include "kernels.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "effects.h"
+#include "error.hpp"
+#include "kernel_sources.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr unsigned geometry_effects =
+    EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
+constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS;
+
+/// The effects that the kernels of each pass ask for with HAS().
+const std::map<std::string, unsigned> effects_read{
+    {"camera", geometry_effects | shading_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS},
+    {"photon", geometry_effects | shading_effects | EFFECT_SHADOW_RAYS},
+    {"grid", 0},
+    {"gather", 0},
+    {"path", geometry_effects | shading_effects | EFFECT_LENS},
+};
+
+void dump(const std::string& folder, const std::string& pass, const std::string& source) {
+  std::filesystem::create_directories(folder);
+  const auto file = std::filesystem::path(folder) / ("pass_" + pass + ".cl");
+  std::ofstream out(file);
+  if (!(out << source)) throw UserError("--dump-kernels: cannot write " + file.string());
+}
+
+}  // namespace
+
+cl::Program build_pass(Device& device, const std::string& pass, const KernelOptions& options) {
+  char define[64];
+  std::snprintf(define, sizeof define, "#define EFFECTS 0x%xu\n", options.effects & effects_read.at(pass));
+  const std::string source = define + flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
+  if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);
+  return device.build(source);
+}
+
+}  // namespace causticl

@@ -1,0 +1,42 @@
+#include "path.hpp"
+
+#include <algorithm>
+
+#include "params.hpp"
+
+namespace causticl {
+
+PathTracer::PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
+                       const KernelOptions& kernels, std::uint32_t seed)
+    : device_(device),
+      film_(film),
+      params_(scene_params(scene, device_scene, seed)),
+      program_(build_pass(device, "path", kernels)),
+      trace_paths_(program_, "trace_paths"),
+      counters_(device.buffer(sizeof(Counters), "counters")) {
+  device_.clear(counters_, sizeof(Counters));
+  first_argument_ = set_scene_arguments(trace_paths_, device_scene);
+  trace_paths_.setArg(first_argument_, film_.buffer());
+  trace_paths_.setArg(first_argument_ + 1, counters_);
+}
+
+void PathTracer::enqueue_pass(std::uint32_t pass) {
+  params_.pass = pass;
+  const std::size_t pixels = film_.pixels(), chunk = launch_chunk(device_);
+  for (std::size_t first = 0; first < pixels; first += chunk) {
+    params_.first_pixel = static_cast<uint>(first);
+    params_.pixel_count = static_cast<uint>(std::min(chunk, pixels - first));
+    trace_paths_.setArg(first_argument_ + 2, params_);
+    device_.launch(trace_paths_, params_.pixel_count);
+  }
+}
+
+PassIntegrator::Totals PathTracer::finish() {
+  totals_.update(device_.download<Counters>(counters_, 1)[0]);
+  Totals result;
+  result.rays = totals_.rays;
+  result.non_finite = totals_.non_finite;
+  return result;
+}
+
+}  // namespace causticl

@@ -1,0 +1,31 @@
+// Path tracing on the device: one sample a pixel a pass.
+#pragma once
+
+#include "film.hpp"
+#include "integrator.hpp"
+#include "kernels.hpp"
+#include "upload.hpp"
+
+namespace causticl {
+
+class PathTracer : public PassIntegrator {
+ public:
+  PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
+             const KernelOptions& kernels, std::uint32_t seed);
+
+  void enqueue_pass(std::uint32_t pass) override;
+  Totals finish() override;
+  double bytes_per_pixel() const override { return 0; }
+
+ private:
+  Device& device_;
+  Film& film_;
+  Params params_{};
+  cl::Program program_;
+  cl::Kernel trace_paths_;
+  cl_uint first_argument_;
+  cl::Buffer counters_;
+  CounterTotals totals_;
+};
+
+}  // namespace causticl

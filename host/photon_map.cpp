@@ -1,0 +1,105 @@
+#include "photon_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr std::size_t scan_segment = 256;  // SCAN_SEGMENT of cl/pass_grid.cl
+
+std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 1) / scan_segment; }
+
+}  // namespace
+
+PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, const KernelOptions& kernels,
+                     const cl::Buffer& counters)
+    : scene_(scene),
+      device_(device),
+      photon_program_(build_pass(device, "photon", kernels)),
+      grid_program_(build_pass(device, "grid", kernels)),
+      trace_photons_(photon_program_, "trace_photons"),
+      count_photons_(grid_program_, "count_photons"),
+      sum_segments_(grid_program_, "sum_segments"),
+      scan_sums_(grid_program_, "scan_sums"),
+      scan_segments_(grid_program_, "scan_segments"),
+      move_photons_(grid_program_, "move_photons"),
+      first_argument_(set_scene_arguments(trace_photons_, scene)),
+      counters_(counters) {
+  reserve_buckets(1);
+  sorted_ = device_.buffer(0, "sorted photons");
+}
+
+Counters PhotonMap::trace(Params params) {
+  stored_ = 0;
+  if (params.emitter_count == 0) return device_.download<Counters>(counters_, 1)[0];
+  // Two stored photons for each emitted one are usual; a closed white room wants more, and gets it below.
+  std::uint64_t wanted = std::max<std::uint64_t>(capacity_, 2ull * params.photon_count);
+  for (;;) {
+    if (wanted > capacity_) {
+      if (wanted > 0xfffffff0u)
+        throw UserError(std::to_string(params.photon_count) +
+                        " photons a pass are more than one pass can store; use fewer a pass and more passes");
+      photons_ = {};
+      photons_ = device_.buffer(wanted * sizeof(Photon), "photons");
+      capacity_ = static_cast<std::uint32_t>(wanted);
+    }
+    params.photon_capacity = capacity_;
+    device_.clear(counters_, sizeof(cl_uint));
+    trace_photons_.setArg(first_argument_, photons_);
+    trace_photons_.setArg(first_argument_ + 1, counters_);
+    trace_photons_.setArg(first_argument_ + 2, params);
+    device_.launch(trace_photons_, params.photon_count);
+    const Counters counters = device_.download<Counters>(counters_, 1)[0];
+    if (counters.photons <= capacity_) {
+      stored_ = counters.photons;
+      return counters;
+    }
+    wanted = counters.photons + counters.photons / 8ull;
+  }
+}
+
+void PhotonMap::reserve_buckets(std::size_t buckets) {
+  if (buckets <= bucket_capacity_) return;
+  cursors_ = device_.buffer(buckets * sizeof(cl_uint), "photon grid");
+  starts_ = device_.buffer((buckets + 1) * sizeof(cl_uint), "photon grid");
+  sums_ = device_.buffer(segments_of(buckets) * sizeof(cl_uint), "photon grid");
+  bucket_capacity_ = buckets;
+}
+
+void PhotonMap::sort(double cell) {
+  // As many buckets along an axis as there are cubes across the scene, but in all no more than about two for
+  // each photon: a larger table costs more to clear and sum than its collisions cost to skip.
+  const double across = std::ceil(2 * scene_.extent / cell);
+  const double affordable = std::cbrt(2.0 * std::max<std::uint32_t>(stored_, 2048));
+  const auto n = static_cast<uint>(std::clamp(std::min(across, affordable), 1.0, 512.0));
+  grid_.origin = {static_cast<float>(scene_.center.x), static_cast<float>(scene_.center.y),
+                  static_cast<float>(scene_.center.z), static_cast<float>(1 / cell)};
+  grid_.nx = grid_.ny = grid_.nz = n;
+  grid_.photon_count = stored_;
+  if (stored_ == 0) return;
+
+  const std::size_t buckets = static_cast<std::size_t>(n) * n * n;
+  reserve_buckets(buckets);
+  const std::size_t stride = (static_cast<std::size_t>(stored_) + 15) / 8 * 8;  // photon_stride of cl/grid.cl
+  if (stride > sorted_capacity_) {
+    sorted_ = {};
+    sorted_ = device_.buffer(stride * sizeof(Photon), "sorted photons");
+    sorted_capacity_ = stride;
+  }
+  device_.clear(cursors_, buckets * sizeof(cl_uint));
+  set_arguments(count_photons_, photons_, cursors_, grid_);
+  device_.launch(count_photons_, stored_);
+  set_arguments(sum_segments_, cursors_, sums_, static_cast<cl_uint>(buckets));
+  device_.launch(sum_segments_, segments_of(buckets));
+  set_arguments(scan_sums_, sums_, static_cast<cl_uint>(segments_of(buckets)));
+  device_.launch(scan_sums_, 1);
+  set_arguments(scan_segments_, cursors_, sums_, starts_, static_cast<cl_uint>(buckets));
+  device_.launch(scan_segments_, segments_of(buckets));
+  set_arguments(move_photons_, photons_, cursors_, sorted_, grid_);
+  device_.launch(move_photons_, stored_);
+}
+
+}  // namespace causticl

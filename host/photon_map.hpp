@@ -1,0 +1,42 @@
+// The photons of a pass: traced, then counting-sorted into a grid.
+#pragma once
+
+#include "integrator.hpp"
+#include "kernels.hpp"
+#include "upload.hpp"
+
+namespace causticl {
+
+class PhotonMap {
+ public:
+  PhotonMap(const DeviceScene& scene, Device& device, const KernelOptions& kernels,
+            const cl::Buffer& counters);
+
+  /// Traces params.photon_count photons of pass params.pass. Waits for the device, since only it knows how
+  /// many were stored; where the buffer was too small, it grows and the pass is traced again, to the same
+  /// photons. Returns the counters as they were left.
+  Counters trace(Params params);
+
+  /// Enqueues the sort into cubes with edges of `cell` units.
+  void sort(double cell);
+
+  std::uint32_t stored() const { return stored_; }
+  const Grid& grid() const { return grid_; }
+  const cl::Buffer& starts() const { return starts_; }
+  const cl::Buffer& sorted() const { return sorted_; }
+
+ private:
+  const DeviceScene& scene_;
+  Device& device_;
+  cl::Program photon_program_, grid_program_;
+  cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
+  cl_uint first_argument_;
+  cl::Buffer counters_, photons_, sorted_, cursors_, sums_, starts_;
+  std::uint32_t capacity_ = 0, stored_ = 0;
+  std::size_t sorted_capacity_ = 0, bucket_capacity_ = 0;
+  Grid grid_{};
+
+  void reserve_buckets(std::size_t buckets);
+};
+
+}  // namespace causticl

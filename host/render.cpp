@@ -1,0 +1,162 @@
+#include "render.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "effects.hpp"
+#include "path.hpp"
+#include "sppm.hpp"
+
+namespace causticl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+const char* name_of(Integrator integrator) { return integrator == Integrator::sppm ? "sppm" : "pt"; }
+
+Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Statistics& statistics) {
+  return {{"scene", scene.file},
+          {"integrator", name_of(scene.renderer.integrator)},
+          {"seed", std::to_string(options.seed)},
+          {"passes", std::to_string(statistics.passes)},
+          {"photons", std::to_string(statistics.photons)},
+          {"device", statistics.device},
+          {"seconds", std::to_string(statistics.seconds)},
+          {"version", CAUSTICL_VERSION},
+          {"non_finite", std::to_string(statistics.non_finite)},
+          {"saturated", std::to_string(statistics.saturated)}};
+}
+
+/// When outputs are rewritten while passes go on.
+class Checkpoints {
+ public:
+  explicit Checkpoints(Integrator integrator) : integrator_(integrator), last_(Clock::now()) {}
+
+  bool due(std::uint64_t pass) {
+    const bool early = integrator_ == Integrator::sppm && pass <= 64 && (pass & (pass - 1)) == 0;
+    const bool regular = integrator_ == Integrator::pt || pass - last_pass_ >= 64;
+    if (!early && !(regular && seconds_since(last_) >= 30)) return false;
+    last_ = Clock::now();
+    last_pass_ = pass;
+    return true;
+  }
+
+ private:
+  Integrator integrator_;
+  Clock::time_point last_;
+  std::uint64_t last_pass_ = 0;
+};
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+RenderResult render_scene(const Scene& scene, Device& device, const RenderOptions& options,
+                          const std::function<void(const Progress&)>& progress,
+                          const std::function<void(const std::string&)>& notice,
+                          const std::function<bool()>& interrupted) {
+  const auto start = Clock::now();
+  const bool sppm = scene.renderer.integrator == Integrator::sppm;
+  Statistics statistics;
+  statistics.device = device.info().name;
+
+  const Effects effects = find_effects(scene);
+  const KernelOptions kernels{effect_bits(effects), options.kernel_dir, options.dump_kernels};
+  const DeviceScene device_scene = upload_scene(scene, device);
+  Film film(device, scene.width, scene.height);
+  std::unique_ptr<PassIntegrator> integrator;
+  if (sppm) {
+    auto made = std::make_unique<Sppm>(scene, device_scene, device, film, kernels, options.seed);
+    statistics.first_radius = made->first_radius();
+    statistics.first_radius_chosen = !scene.renderer.radius;
+    if (statistics.first_radius_chosen && notice) {
+      char text[128];
+      std::snprintf(text, sizeof text, "first radius %.4g, chosen from the scene (renderer.radius sets it)",
+                    statistics.first_radius);
+      notice(text);
+    }
+    integrator = std::move(made);
+  } else {
+    integrator = std::make_unique<PathTracer>(scene, device_scene, device, film, kernels, options.seed);
+  }
+  device.queue().finish();
+  statistics.first_pass_seconds = seconds_since(start);
+
+  const auto wanted = static_cast<std::uint64_t>(sppm ? scene.renderer.passes : scene.renderer.samples);
+  PassIntegrator::Totals totals;
+  Checkpoints checkpoints(scene.renderer.integrator);
+  const auto loop_start = Clock::now();
+  double recent_pass = 0;  // the longer of the last two: the first compiles kernels
+  double last_pass = 0;
+  const auto write = [&](Picture picture) {
+    statistics.seconds = seconds_since(start);
+    statistics.photons = totals.photons_emitted;
+    for (const auto& file : options.outputs)
+      write_picture(file, picture, metadata_of(scene, options, statistics));
+    return picture;
+  };
+
+  for (std::uint64_t pass = 0; pass < wanted; ++pass) {
+    const auto pass_start = Clock::now();
+    integrator->enqueue_pass(static_cast<std::uint32_t>(pass));
+    totals = integrator->finish();
+    statistics.passes = pass + 1;
+    const double elapsed = seconds_since(start);
+    const double this_pass = seconds_since(pass_start);
+    recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
+    last_pass = this_pass;
+    if (progress) {
+      const double per_pass = seconds_since(loop_start) / static_cast<double>(pass + 1);
+      double remaining = per_pass * static_cast<double>(wanted - pass - 1);
+      if (options.time_limit) remaining = std::min(remaining, std::max(0.0, *options.time_limit - elapsed));
+      progress({pass + 1, wanted, elapsed, remaining, totals.photons_emitted, totals.rays});
+    }
+    if (pass + 1 == wanted) break;
+    if (interrupted && interrupted()) {
+      statistics.stop = StopReason::interrupted;
+      break;
+    }
+    // The next pass must fit into what is left.
+    if (options.time_limit && elapsed + recent_pass > *options.time_limit) {
+      statistics.stop = StopReason::time;
+      break;
+    }
+    if (!options.outputs.empty() && checkpoints.due(pass + 1)) write(film.picture(statistics.passes));
+  }
+
+  const double loop_seconds = std::max(seconds_since(loop_start), 1e-9);
+  statistics.rays = totals.rays;
+  statistics.non_finite = totals.non_finite;
+  statistics.saturated = totals.saturated;
+  statistics.stored_photons = totals.photons_stored_last_pass;
+  statistics.photons_per_second = static_cast<double>(totals.photons_emitted) / loop_seconds;
+  statistics.rays_per_second = static_cast<double>(totals.rays) / loop_seconds;
+  RenderResult result;
+  result.picture = write(film.picture(statistics.passes));
+  statistics.kernel_build_seconds = device.build_seconds();
+  statistics.tree_build_seconds = device_scene.tree_build_seconds;
+  statistics.triangles = device_scene.triangles;
+  statistics.shapes = device_scene.shapes_count;
+  statistics.skipped_triangles = device_scene.skipped_triangles;
+  statistics.emitters = device_scene.emitter_count;
+  statistics.device_bytes = device.allocated_bytes();
+  statistics.peak_memory_bytes = peak_memory();
+  statistics.bytes_per_pixel = Film::bytes_per_pixel + integrator->bytes_per_pixel();
+  statistics.kernels = device.kernel_times();
+  result.statistics = statistics;
+  return result;
+}
+
+}  // namespace causticl

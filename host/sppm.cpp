@@ -1,0 +1,125 @@
+#include "sppm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "params.hpp"
+
+namespace causticl {
+
+Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
+           const KernelOptions& kernels, std::uint32_t seed)
+    : spec_(scene.renderer),
+      device_(device),
+      film_(film),
+      params_(scene_params(scene, device_scene, seed)),
+      counters_(device.buffer(sizeof(Counters), "counters")),
+      photon_map_(device_scene, device, kernels, counters_),
+      camera_program_(build_pass(device, "camera", kernels)),
+      gather_program_(build_pass(device, "gather", kernels)),
+      trace_camera_(camera_program_, "trace_camera"),
+      gather_photons_(gather_program_, "gather_photons"),
+      count_around_(gather_program_, "count_around"),
+      start_pixels_(gather_program_, "start_pixels"),
+      first_argument_(set_scene_arguments(trace_camera_, device_scene)) {
+  device_.clear(counters_, sizeof(Counters));
+  params_.visible_points = static_cast<uint>(spec_.visible_points);
+  params_.photon_count = static_cast<uint>(spec_.photons);
+  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene.emitted_power / spec_.photons);
+  params_.alpha = static_cast<float>(spec_.alpha);
+
+  chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
+  visible_points_ =
+      device_.buffer(chunk_pixels_ * params_.visible_points * sizeof(VisiblePoint), "visible points");
+  pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
+  trace_camera_.setArg(first_argument_, visible_points_);
+  trace_camera_.setArg(first_argument_ + 1, counters_);
+
+  first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(device_scene.extent);
+  schedule_radius2_ = first_radius_ * first_radius_;
+  set_arguments(start_pixels_, pixels_, static_cast<cl_uint>(film_.pixels()),
+                static_cast<float>(schedule_radius2_));
+  device_.launch(start_pixels_, film_.pixels());
+}
+
+/// The radius within which the median visible point of a coarse picture finds a few dozen photons of one
+/// pass: small enough to resolve a caustic, large enough to be smooth after a few passes.
+double Sppm::choose_first_radius(double extent) {
+  constexpr double wanted = 40;
+  constexpr uint longest_side = 64;
+  Params params = params_;
+  const uint longer = std::max(params.width, params.height);
+  params.width = std::max(1u, std::min(longest_side, longer) * params.width / longer);
+  params.height = std::max(1u, std::min(longest_side, longer) * params.height / longer);
+  params.visible_points = 1;
+  params.pixel_count = static_cast<uint>(std::min<std::size_t>(
+      static_cast<std::size_t>(params.width) * params.height, chunk_pixels_ * params_.visible_points));
+  photon_map_.trace(params);
+  double radius = 0.01 * extent;
+  if (photon_map_.stored() == 0) return radius;
+  trace_camera_.setArg(first_argument_ + 2, params);
+  device_.launch(trace_camera_, params.pixel_count);
+
+  const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
+  for (int step = 0; step < 12; ++step) {
+    params.radius2 = static_cast<float>(radius * radius);
+    photon_map_.sort(2 * radius);
+    set_arguments(count_around_, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
+                  photon_map_.grid(), params);
+    device_.launch(count_around_, params.pixel_count);
+    auto found = device_.download<cl_uint>(counts, params.pixel_count);
+    std::erase(found, 0xffffffffu);  // COUNT_NOTHING of cl/pass_gather.cl
+    if (found.empty()) return radius;
+    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+    std::nth_element(found.begin(), middle, found.end());
+    const double ratio = std::clamp(std::sqrt(wanted / std::max<double>(*middle, 0.5)), 0.25, 4.0);
+    if (ratio > 0.9 && ratio < 1.1) break;
+    if (radius * ratio > extent) break;  // a scene in the dark: hardly a photon anywhere
+    radius *= ratio;
+  }
+  return radius;
+}
+
+/// Equation (9) with a pixel's photons as they are on average, or Knaus & Zwicker 2011, equation 14:
+/// R'^2 = R^2 (i + alpha) / (i + 1) for i = 1, 2, ...
+void Sppm::advance_schedule(std::uint32_t pass) {
+  if (spec_.schedule == Schedule::geometric)
+    schedule_radius2_ *= spec_.radius_decay * spec_.radius_decay;
+  else
+    schedule_radius2_ *= (pass + 1 + spec_.alpha) / (pass + 2.0);
+}
+
+void Sppm::enqueue_pass(std::uint32_t pass) {
+  params_.pass = pass;
+  // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
+  params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
+  totals_.update(photon_map_.trace(params_));
+  emitted_ += params_.emitter_count ? params_.photon_count : 0;
+  photon_map_.sort(2 * std::sqrt(schedule_radius2_));
+
+  const std::size_t pixels = film_.pixels();
+  for (std::size_t first = 0; first < pixels; first += chunk_pixels_) {
+    params_.first_pixel = static_cast<uint>(first);
+    params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, pixels - first));
+    trace_camera_.setArg(first_argument_ + 2, params_);
+    device_.launch(trace_camera_, static_cast<std::size_t>(params_.pixel_count) * params_.visible_points);
+    set_arguments(gather_photons_, visible_points_, pixels_, film_.buffer(), photon_map_.starts(),
+                  photon_map_.sorted(), counters_, photon_map_.grid(), params_);
+    device_.launch(gather_photons_, params_.pixel_count);
+  }
+  advance_schedule(pass);
+}
+
+PassIntegrator::Totals Sppm::finish() {
+  totals_.update(device_.download<Counters>(counters_, 1)[0]);
+  return {emitted_, photon_map_.stored(), totals_.rays, totals_.non_finite, totals_.saturated};
+}
+
+double Sppm::bytes_per_pixel() const {
+  const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * sizeof(VisiblePoint));
+  return sizeof(SppmPixel) + chunk / static_cast<double>(film_.pixels());
+}
+
+}  // namespace causticl

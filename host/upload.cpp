@@ -1,0 +1,123 @@
+#include "upload.hpp"
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "world.hpp"
+
+namespace causticl {
+namespace {
+
+float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+Material device_material(const MaterialSpec& spec, double outside_ior) {
+  Material result{};
+  result.color = to_float4(spec.color, spec.ior / outside_ior);
+  result.emission = to_float4(spec.emission);
+  result.kind = spec.kind == MaterialSpec::Kind::diffuse  ? MATERIAL_DIFFUSE
+                : spec.kind == MaterialSpec::Kind::mirror ? MATERIAL_MIRROR
+                                                          : MATERIAL_GLASS;
+  result.flags =
+      (spec.two_sided ? MATERIAL_TWO_SIDED : 0u) | (spec.alpha_diffuse ? MATERIAL_ALPHA_DIFFUSE : 0u);
+  result.color_texture = static_cast<uint>(spec.color_texture + 1);
+  return result;
+}
+
+/// IEEE half, round to nearest even, saturating at the largest finite value.
+std::uint16_t to_half(float value) {
+  cl_half sign = 0;
+  if (value < 0) {
+    sign = 0x8000;
+    value = -value;
+  }
+  if (!(value < 65504.0f)) return static_cast<std::uint16_t>(sign | (value == value ? 0x7bff : 0));
+  // The smallest normal half is 2^-14; below it the spacing stays 2^-24.
+  int exponent;
+  std::frexp(value, &exponent);
+  exponent = std::max(exponent, -13);
+  const double units = std::nearbyint(std::ldexp(static_cast<double>(value), 11 - exponent));
+  // `units` has eleven bits from a normal number, its leading one carrying into the exponent field.
+  return static_cast<std::uint16_t>(sign | (((exponent + 13) << 10) + static_cast<int>(units)));
+}
+
+/// Textures and one buffer of all their texels; images that several textures share are stored once.
+void upload_textures(const Scene& scene, Device& device, DeviceScene& out) {
+  std::vector<std::uint16_t> texels;
+  std::vector<uint> first_texel;
+  for (const auto& image : scene.images) {
+    first_texel.push_back(static_cast<uint>(texels.size() / 4));
+    for (const float value : image.rgba) texels.push_back(to_half(value));
+    if (texels.size() / 4 > 0xffffffffu) throw UserError("the textures have more than 2^32 texels in all");
+  }
+  std::vector<Texture> textures;
+  for (const auto& spec : scene.textures) {
+    Texture texture{};
+    texture.kind = spec.kind == TextureSpec::Kind::checker ? TEXTURE_CHECKER : TEXTURE_IMAGE;
+    texture.a = to_float4(spec.a);
+    texture.b = to_float4(spec.b);
+    texture.scale = {static_cast<float>(spec.scale[0]), static_cast<float>(spec.scale[1])};
+    texture.bilinear = spec.bilinear;
+    if (spec.image >= 0) {
+      texture.first_texel = first_texel[spec.image];
+      texture.width = static_cast<uint>(scene.images[spec.image].width);
+      texture.height = static_cast<uint>(scene.images[spec.image].height);
+    }
+    textures.push_back(texture);
+  }
+  out.textures = device.upload(textures, "textures");
+  out.texels = device.upload(texels, "texels");
+}
+
+}  // namespace
+
+DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads) {
+  const World world = build_world(scene);
+  const KdTree tree = build_kdtree(world.tree, threads);
+  DeviceScene out;
+  out.nodes = device.upload(tree.nodes, "tree nodes");
+  out.blocks = device.upload(tree.blocks, "triangle blocks");
+  out.attributes = device.upload(world.attributes, "triangle attributes");
+  out.shapes = device.upload(world.shapes, "shapes");
+  out.curves = device.upload(world.curves, "curves");
+  out.emitters = device.upload(world.emitters, "emitters");
+  std::vector<Material> materials;
+  for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
+  out.materials = device.upload(materials, "materials");
+  upload_textures(scene, device, out);
+
+  out.plane_count = world.plane_count;
+  out.emitter_count = static_cast<uint>(world.emitters.size());
+  out.emitted_power = world.emitted_power;
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.center[axis] = 0.5 * (static_cast<double>(tree.bounds.low[axis]) + tree.bounds.high[axis]);
+    extent = std::max(extent, 0.5 * (static_cast<double>(tree.bounds.high[axis]) - tree.bounds.low[axis]));
+  }
+  if (extent > 0) out.extent = extent;
+  out.triangles = world.tree.triangles.size();
+  out.shapes_count = world.shapes.size();
+  out.skipped_triangles = tree.skipped;
+  out.tree_build_seconds = tree.build_seconds;
+  return out;
+}
+
+Camera device_camera(const CameraSpec& spec) {
+  Camera camera{};
+  camera.origin = to_float4(spec.origin, spec.plane_distance);
+  camera.axis = to_float4(spec.axis, spec.focal_distance);
+  camera.right = to_float4(spec.right, spec.aperture);
+  camera.up = to_float4(spec.up, spec.flat_focus ? 1 : 0);
+  camera.lens_right = to_float4(normalize(spec.right));
+  camera.lens_up = to_float4(normalize(spec.up));
+  return camera;
+}
+
+cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene) {
+  set_arguments(kernel, scene.nodes, scene.blocks, scene.attributes, scene.shapes, scene.curves,
+                scene.materials, scene.textures, scene.texels, scene.emitters);
+  return 9;
+}
+
+}  // namespace causticl

@@ -1,0 +1,31 @@
+// The scene on the device.
+#pragma once
+
+#include "device.hpp"
+#include "kdtree.hpp"
+#include "scene.hpp"
+#include "types.h"
+
+namespace causticl {
+
+/// The buffers that every tracing kernel takes (SCENE_PARAMETERS of cl/scene.cl), and what the host keeps.
+struct DeviceScene {
+  cl::Buffer nodes, blocks, attributes, shapes, curves, materials, textures, texels, emitters;
+  uint emitter_count = 0, plane_count = 0;
+  double emitted_power = 0;  // sum over emitters of area * sides * largest channel of radiance
+  Vec3 center;               // of all bounded objects
+  double extent = 1;         // their largest half extent
+  std::size_t triangles = 0, shapes_count = 0, skipped_triangles = 0;
+  double tree_build_seconds = 0;
+};
+
+/// Builds the tree with `threads` threads (0: all cores) and uploads everything.
+DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads = 0);
+
+/// The thin lens of the scene's camera.
+Camera device_camera(const CameraSpec& camera);
+
+/// Sets a tracing kernel's leading arguments, and returns the index of the next.
+cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene);
+
+}  // namespace causticl

@@ -1,0 +1,284 @@
+#include "world.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "curve.hpp"
+#include "error.hpp"
+
+namespace causticl {
+namespace {
+
+using Shape3 = Object::Shape;
+
+float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+void store_rows(const Transform& transform, float4 rows[3]) {
+  const Vec3& t = transform.translation;
+  for (int i = 0; i < 3; ++i) rows[i] = to_float4(transform.rows[i], t[i]);
+}
+
+/// Appends the primitives of one object after another.
+class WorldBuilder {
+ public:
+  explicit WorldBuilder(const Scene& scene) : scene_(scene) {}
+
+  World build() {
+    // Planes come first, so that a kernel scans them by number.
+    for (const auto& object : scene_.objects)
+      if (object.shape == Shape3::plane) add_shape(object);
+    world_.plane_count = static_cast<uint>(world_.shapes.size());
+    for (const auto& object : scene_.objects) {
+      switch (object.shape) {
+        case Shape3::plane:
+          break;
+        case Shape3::mesh:
+          add_mesh(object, scene_.meshes[object.mesh]);
+          break;
+        case Shape3::rectangle:
+          add_rectangle(object);
+          break;
+        case Shape3::box:
+          add_box(object);
+          break;
+        default:
+          add_shape(object);
+      }
+    }
+    finish_emitters();
+    return std::move(world_);
+  }
+
+ private:
+  const Scene& scene_;
+  World world_;
+
+  const MaterialSpec& material(const Object& object) const { return scene_.materials[object.material]; }
+  bool emissive(const Object& object) const { return max_component(material(object).emission) > 0; }
+
+  Emitter emitter(const Object& object, uint type, double area) const {
+    Emitter result{};
+    result.type = type;
+    result.radiance = to_float4(material(object).emission, area);
+    result.two_sided = material(object).two_sided;
+    return result;
+  }
+
+  struct Corner {
+    Vec3 position, normal;
+    double u = 0, v = 0;
+  };
+
+  /// One world-space triangle. Normals are used where `smooth`.
+  void add_triangle(const Object& object, const Corner (&corners)[3], bool smooth) {
+    TreeTriangle triangle{};
+    float normals[3][3], uvs[3][2];
+    for (int c = 0; c < 3; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        triangle.position[c][axis] = static_cast<float>(corners[c].position[axis]);
+        normals[c][axis] = static_cast<float>(corners[c].normal[axis]);
+      }
+      uvs[c][0] = static_cast<float>(corners[c].u);
+      uvs[c][1] = static_cast<float>(corners[c].v);
+    }
+    world_.tree.triangles.push_back(triangle);
+    world_.attributes.push_back(
+        triangle_attributes(static_cast<uint>(object.material), smooth ? normals : nullptr, uvs));
+    if (!emissive(object)) return;
+    const Vec3 e1 = corners[1].position - corners[0].position, e2 = corners[2].position - corners[0].position;
+    const double area = 0.5 * length(cross(e1, e2));
+    if (!(area > 0)) return;
+    Emitter light = emitter(object, EMITTER_TRIANGLE, area);
+    light.a = to_float4(corners[0].position);
+    light.b = to_float4(e1);
+    light.c = to_float4(e2);
+    world_.emitters.push_back(light);
+  }
+
+  void add_quad(const Object& object, const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+    add_triangle(object, {a, b, c}, false);
+    add_triangle(object, {a, c, d}, false);
+  }
+
+  void add_rectangle(const Object& object) {
+    const auto corner = [&](double x, double y) {
+      return Corner{object.transform.point({x, y, 0}), {}, x + 0.5, y + 0.5};
+    };
+    add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
+  }
+
+  /// Six faces, wound counter-clockwise seen from outside also where the transform mirrors.
+  void add_box(const Object& object) {
+    const bool mirrored = object.transform.determinant() < 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int right = (axis + 1) % 3, up = (axis + 2) % 3;
+      for (const double side : {-0.5, 0.5}) {
+        const auto corner = [&](double x, double y) {
+          Vec3 p;
+          p[axis] = side * object.size[axis];
+          p[right] = x * object.size[right];
+          p[up] = y * object.size[up];
+          return Corner{object.transform.point(p), {}, x + 0.5, y + 0.5};
+        };
+        if ((side > 0) != mirrored)
+          add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
+        else
+          add_quad(object, corner(-.5, -.5), corner(-.5, .5), corner(.5, .5), corner(.5, -.5));
+      }
+    }
+  }
+
+  void add_mesh(const Object& object, const Mesh& mesh) {
+    const Transform to_local = object.transform.inverse();
+    const bool mirrored = object.transform.determinant() < 0;
+    world_.tree.triangles.reserve(world_.tree.triangles.size() + mesh.triangles());
+    world_.attributes.reserve(world_.attributes.size() + mesh.triangles());
+    for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+      Corner corners[3];
+      bool smooth = object.smooth && !mesh.normal_index.empty();
+      for (int c = 0; c < 3; ++c) {
+        // A mirroring transform turns the winding around: two corners change places to keep outside outside.
+        const int from = mirrored && c > 0 ? 3 - c : c;
+        const auto& p = mesh.positions[mesh.position_index[t][from]];
+        corners[c].position = object.transform.point({p[0], p[1], p[2]});
+        const std::uint32_t n = mesh.normal_index.empty() ? no_index : mesh.normal_index[t][from];
+        if (n == no_index) {
+          smooth = false;
+        } else {
+          const auto& local = mesh.normals[n];
+          // Normals transform by the inverse transpose.
+          const Vec3 world =
+              to_local.rows[0] * local[0] + to_local.rows[1] * local[1] + to_local.rows[2] * local[2];
+          const double size = length(world);
+          if (size > 0)
+            corners[c].normal = world / size;
+          else
+            smooth = false;
+        }
+        const std::uint32_t uv = mesh.uv_index.empty() ? no_index : mesh.uv_index[t][from];
+        if (uv != no_index) {
+          corners[c].u = mesh.uvs[uv][0];
+          corners[c].v = mesh.uvs[uv][1];
+        }
+      }
+      add_triangle(object, corners, smooth);
+    }
+  }
+
+  /// Spheres, planes, disks and revolved curves.
+  void add_shape(const Object& object) {
+    causticl::Shape shape{};
+    shape.material = static_cast<uint>(object.material);
+    Transform transform = object.transform;
+    Bounds bounds;
+    double area = 0;
+    Emitter light{};
+    switch (object.shape) {
+      case Shape3::sphere: {
+        // The format allows only uniform scales here: every axis is scaled alike.
+        const double radius = object.radius * std::cbrt(std::fabs(transform.determinant()));
+        shape.type = SHAPE_SPHERE;
+        shape.sphere = to_float4(transform.translation, radius);
+        const Vec3 r{radius, radius, radius};
+        bounds = make_bounds(transform.translation - r, transform.translation + r);
+        area = 4 * std::numbers::pi * radius * radius;
+        light = emitter(object, EMITTER_SPHERE, area);
+        light.a = shape.sphere;
+        break;
+      }
+      case Shape3::plane:
+        shape.type = SHAPE_PLANE;
+        break;
+      case Shape3::disk: {
+        shape.type = SHAPE_DISK;
+        transform = Transform::scale({object.radius, object.radius, object.radius}).followed_by(transform);
+        const Vec3 x = transform.vector({1, 0, 0}), y = transform.vector({0, 1, 0});
+        Vec3 reach;
+        for (int axis = 0; axis < 3; ++axis) reach[axis] = std::hypot(x[axis], y[axis]);
+        bounds = make_bounds(transform.translation - reach, transform.translation + reach);
+        area = std::numbers::pi * length(cross(x, y));
+        light = emitter(object, EMITTER_DISK, area);
+        light.a = to_float4(transform.translation);
+        light.b = to_float4(x);
+        // The emitting side is local +z, which a mirroring transform puts on the other side of x cross y.
+        light.c = to_float4(transform.determinant() < 0 ? -y : y);
+        break;
+      }
+      default: {
+        shape.type = SHAPE_BEZIER;
+        shape.degree = static_cast<uint>(object.points.size() - 1);
+        shape.curve = static_cast<uint>(world_.curves.size());
+        const auto data = curve_data(object.points);
+        world_.curves.insert(world_.curves.end(), data.begin(), data.end());
+        const CurveBounds local = curve_bounds(object.points);
+        bounds = transformed_bounds(local.low, local.high, transform);
+        if (emissive(object)) {
+          const auto table = curve_area_table(object.points, EMITTER_AREA_STEPS);
+          shape.area_table = static_cast<uint>(world_.curves.size()) + 2;  // past the number of steps and the area
+          world_.curves.insert(world_.curves.end(), table.begin(), table.end());
+          // The world's area where the scale is uniform; elsewhere kernels only need it to be the same throughout.
+          area = table[1] * std::pow(std::fabs(transform.determinant()), 2.0 / 3.0);
+          shape.area = static_cast<float>(area);
+        }
+        light = emitter(object, EMITTER_BEZIER, area);
+        light.first_area = shape.area_table;
+        light.shape = static_cast<uint>(world_.shapes.size());
+      }
+    }
+    store_rows(transform, shape.to_world);
+    store_rows(transform.inverse(), shape.to_local);
+    if (object.shape != Shape3::plane)
+      world_.tree.shapes.push_back({bounds, static_cast<uint>(world_.shapes.size())});
+    if (area > 0 && emissive(object)) world_.emitters.push_back(light);
+    world_.shapes.push_back(shape);
+  }
+
+  static Bounds make_bounds(Vec3 low, Vec3 high) {
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Outward, so that rounding to float never cuts the shape.
+      bounds.low[axis] = std::nextafter(static_cast<float>(low[axis]), -INFINITY);
+      bounds.high[axis] = std::nextafter(static_cast<float>(high[axis]), INFINITY);
+    }
+    return bounds;
+  }
+
+  static Bounds transformed_bounds(Vec3 local_low, Vec3 local_high, const Transform& transform) {
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3 p;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = (corner >> axis & 1) ? local_high[axis] : local_low[axis];
+      p = transform.point(p);
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], p[axis]);
+        high[axis] = std::max(high[axis], p[axis]);
+      }
+    }
+    return make_bounds(low, high);
+  }
+
+  /// Probabilities in proportion to power; the last cumulative one is exactly 1.
+  void finish_emitters() {
+    const auto power = [](const Emitter& light) {
+      return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
+             static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
+    };
+    for (const auto& light : world_.emitters) world_.emitted_power += power(light);
+    double sum = 0;
+    for (auto& light : world_.emitters) {
+      sum += power(light);
+      light.probability = static_cast<float>(power(light) / world_.emitted_power);
+      light.cdf = static_cast<float>(sum / world_.emitted_power);
+    }
+    if (!world_.emitters.empty()) world_.emitters.back().cdf = 1;
+  }
+};
+
+}  // namespace
+
+World build_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+
+}  // namespace causticl

@@ -1,0 +1,26 @@
+// The scene as primitives in world space: what the tree is built over and what emits.
+#pragma once
+
+#include <vector>
+
+#include "kdtree.hpp"
+#include "scene.hpp"
+#include "types.h"
+
+namespace causticl {
+
+struct World {
+  TreeInput tree;                              // all bounded primitives
+  std::vector<TriangleAttributes> attributes;  // one per triangle of the tree
+  std::vector<Shape> shapes;                   // infinite planes first
+  uint plane_count = 0;
+  std::vector<float> curves;  // data of the revolved curves
+  std::vector<Emitter> emitters;
+  double emitted_power = 0;  // sum over emitters of area * sides * largest channel of radiance
+};
+
+/// Meshes, rectangles and boxes become world-space triangles, everything else becomes shapes; emissive ones
+/// are listed as emitters with their probabilities.
+World build_world(const Scene& scene);
+
+}  // namespace causticl
