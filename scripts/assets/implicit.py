@@ -83,7 +83,24 @@ def polygonised(f, low, high, cell, relaxation=6):
                            unit(normal[faces].sum(1))) < 0.3
         moved[faces[folded]] = positions[faces[folded]]
         positions = moved
-    return Mesh(positions, gradient(f, positions), faces)
+    return Mesh(positions, agreeing(unit(gradient(f, positions)), positions, faces), faces)
+
+
+def agreeing(normals, positions, faces):
+    """The normals, but the mean of the triangles round a vertex where one of them turns away from its normal.
+
+    That happens in creases which are finer than the mesh.
+    """
+    p = positions[faces]
+    crossed = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    facing = np.einsum("ij,ikj->ik", unit(crossed), normals[faces])
+    doubtful = np.unique(faces[facing < 0.4])
+    mean = np.zeros_like(normals)
+    for corner in range(3):
+        np.add.at(mean, faces[:, corner], unit(crossed))
+    normals = normals.copy()
+    normals[doubtful] = unit(mean[doubtful])
+    return normals
 
 
 def consistently_wound(faces):

@@ -117,7 +117,7 @@ def averaged(mesh):
 def floor_lamp():
     """The stand of a lamp whose globe (a sphere of radius 7) is centred at y = 76."""
     return revolved([(0, 0), (9, 0), (9.6, 0.6), (9, 1.3), (4, 2), (1.2, 3.2), (0.8, 6), (0.8, 30), (0.8, 58), (1.0, 64),
-                     (3.6, 66.4), (4.2, 67.6), (3.6, 68), (3.6, 68), (0, 68)], samples=3, segments=36)
+                     (3.4, 66.2), (4.3, 67.2), (4.0, 67.9), (3.0, 68.1), (0, 68.2)], samples=3, segments=36)
 
 
 def painting_frame():
