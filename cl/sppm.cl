@@ -15,10 +15,17 @@ INLINE float sppm_photons(SppmPixel pixel) { return pixel.photons_high * 4294967
 // equation (7) is the mean over passes of Phi_j / (pi R_j^2 photons per pass), and that sum is the film's.
 INLINE SppmPixel sppm_update(SppmPixel pixel, uint found, float alpha) {
   if (found == 0) return pixel;
-  float m = (float)found;
-  float share = (1 - alpha) * m / (alpha * sppm_photons(pixel) + m);
-  sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_lo);
-  sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_hi);
+  float m = (float)found, photons = sppm_photons(pixel), total = alpha * photons + m;
+  float share = (1 - alpha) * m / total;
+  if (share > 0.5f) {
+    // The first passes, alpha small: what remains is the smaller part, so it is what must be rounded.
+    float kept = alpha * (photons + m) / total;
+    pixel.radius2_hi *= kept;
+    pixel.radius2_lo *= kept;
+  } else {
+    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_lo);
+    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_hi);
+  }
   uint low = pixel.photons_low + found;
   pixel.photons_high += low < found;
   pixel.photons_low = low;

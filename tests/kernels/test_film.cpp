@@ -1,0 +1,128 @@
+#include <cstring>
+#include <limits>
+
+#include "vector_inputs.hpp"
+
+using namespace causticl;
+
+namespace {
+
+const char* const source = R"(
+#include "film.cl"
+// Each work-item adds `count` numbers of a linear congruential sequence, each an integer over 2^24.
+kernel void sum_many(global float2 *sums, uint items, uint count, uint mask) {
+  uint i = get_global_id(0);
+  if (i >= items) return;
+  float hi = 0, lo = 0;
+  uint state = i * 747796405u + 1u;
+  for (uint n = 0; n < count; ++n) {
+    state = state * 1664525u + 1013904223u;
+    sum_add(&hi, &lo, (float)((state >> 8) | mask) * 5.9604644775390625e-8f);
+  }
+  sums[i] = (float2)(hi, lo);
+}
+// Each work-item adds `count` samples to its own pixel.
+kernel void add_samples(global const float4 *samples, global FilmPixel *film, volatile global Counters *counters,
+                        uint pixels, uint count) {
+  uint i = get_global_id(0);
+  if (i >= pixels) return;
+  for (uint n = 0; n < count; ++n) film_add(film + i, samples[i * count + n].xyz, counters);
+}
+)";
+
+/// Largest relative error of the sums of `count` numbers each, against exact integer sums. A mask of 2^24 - 1
+/// makes all of them the same number.
+double sum_error(uint items, uint count, uint mask) {
+  auto program = build_test_program(source);
+  auto out = test_device().buffer(items * sizeof(float2), "sums");
+  run_kernel(program, "sum_many", items, out, items, count, mask);
+  const auto sums = test_device().download<float2>(out, items);
+  double worst = 0;
+  for (uint i = 0; i < items; ++i) {
+    std::uint64_t exact = 0;
+    uint state = i * 747796405u + 1u;
+    for (uint n = 0; n < count; ++n) {
+      state = state * 1664525u + 1013904223u;
+      exact += (state >> 8) | mask;
+    }
+    const double expected = std::ldexp(static_cast<double>(exact), -24);
+    worst = std::max(worst, std::fabs((double(sums[i].x) + sums[i].y) / expected - 1));
+    // The two halves do not overlap, so that hi alone is the rounded sum.
+    CHECK(static_cast<float>(double(sums[i].x) + sums[i].y) == sums[i].x);
+  }
+  return worst;
+}
+
+/// Adds `count` samples to each pixel on the device.
+std::vector<FilmPixel> add_samples(const std::vector<float4>& samples, uint pixels, Counters& counters) {
+  auto program = build_test_program(source);
+  auto in = test_device().upload(samples, "samples");
+  auto film = test_device().buffer(pixels * sizeof(FilmPixel), "film");
+  test_device().clear(film, pixels * sizeof(FilmPixel));
+  auto counter = test_device().buffer(sizeof(Counters), "counters");
+  test_device().clear(counter, sizeof(Counters));
+  run_kernel(program, "add_samples", pixels, in, film, counter, pixels, uint(samples.size() / pixels));
+  counters = test_device().download<Counters>(counter, 1)[0];
+  return test_device().download<FilmPixel>(film, pixels);
+}
+
+}  // namespace
+
+TEST_CASE("running sums of ten million numbers are exact to 1e-9") {
+  CHECK(sum_error(2, 10000000, 0) < 1e-9);
+  CHECK(sum_error(1, 10000000, 0xffffffu) < 1e-9);
+}
+
+TEST_CASE("running sums of a hundred million numbers are exact to 1e-9", "[long]") {
+  CHECK(sum_error(2, 100000000, 0) < 1e-9);
+  CHECK(sum_error(1, 100000000, 0xffffffu) < 1e-9);
+}
+
+TEST_CASE("the film adds every channel exactly, whatever the samples' sizes") {
+  RandomInputs random(51);
+  constexpr uint pixels = 64, count = 1 << 14;
+  std::vector<float4> samples(pixels * count);
+  std::vector<long double> expected(3 * pixels);
+  for (uint i = 0; i < pixels * count; ++i) {
+    float* channel = &samples[i].x;
+    for (uint c = 0; c < 3; ++c) {
+      channel[c] = static_cast<float>(std::pow(10, random.uniform(-6, 3)));
+      expected[3 * (i / count) + c] += channel[c];
+    }
+  }
+  Counters counters{};
+  const auto film = add_samples(samples, pixels, counters);
+  double worst = 0;
+  for (uint i = 0; i < 3 * pixels; ++i) {
+    const FilmPixel& pixel = film[i / 3];
+    const long double sum = static_cast<long double>(pixel.sum[i % 3]) + pixel.low[i % 3];
+    worst = std::max(worst, static_cast<double>(std::fabs(sum / expected[i] - 1)));
+  }
+  CHECK(worst < 1e-10);
+  CHECK(counters.non_finite == 0);
+}
+
+TEST_CASE("samples that are not finite change one counter and no pixel") {
+  RandomInputs random(52);
+  constexpr uint pixels = 1024, count = 1024;
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
+  std::vector<float4> samples(pixels * count), clean;
+  uint bad = 0;
+  for (auto& sample : samples) {
+    sample = {float(random.uniform()), float(random.uniform()), float(random.uniform()), 0};
+    clean.push_back(sample);
+    if (random.uniform() > 0.01) continue;
+    // 0 changes no sum, so the clean film has it in the place of what is left out.
+    clean.back() = {};
+    (&sample.x)[bad % 3] = bad % 7 < 3 ? nan : bad % 7 < 5 ? infinity : -infinity;
+    ++bad;
+  }
+  Counters counters{}, none{};
+  const auto film = add_samples(samples, pixels, counters), without = add_samples(clean, pixels, none);
+  CHECK(bad > 5000);
+  CHECK(counters.non_finite == bad);
+  CHECK((counters.photons == 0 && counters.rays == 0 && counters.saturated == 0));
+  CHECK(none.non_finite == 0);
+  CHECK(std::memcmp(film.data(), without.data(), pixels * sizeof(FilmPixel)) == 0);
+}
