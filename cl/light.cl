@@ -146,10 +146,10 @@ static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit
     if (HAS(EFFECT_BEZIER) && shape->type == SHAPE_BEZIER) {
       real3 point, normal;
       real area;
-      bezier_point(shape, scene->geometry.curves, hit.u, hit.v, &point, &normal, &area);
+      bezier_point(shape, scene->geometry.curves, surface->uv.x, surface->uv.y, &point, &normal, &area);
       global const float *table = scene->geometry.curves + shape->area_table;
       real total = shape->area;
-      area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, hit.v) / area : 0;
+      area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, surface->uv.y) / area : 0;
     }
   }
   real cosine = fabs(dot(direction, surface->geometric_normal));
