@@ -15,6 +15,12 @@ namespace causticl {
 /// The device that tests run on: CAUSTICL_DEVICE names it, else the first CPU, else the first device.
 Device& test_device();
 
+/// Puts the test device's work-group size back when a test that changes it ends.
+struct WorkGroupSize {
+  std::size_t size = test_device().local_size();
+  ~WorkGroupSize() { test_device().set_local_size(size); }
+};
+
 /// Builds a test's own OpenCL text; its #include "name.cl" lines take the shipped kernel files. `effects` are
 /// the bits of effects.h that HAS() sees.
 cl::Program build_test_program(const std::string& text, unsigned effects = ~0u,

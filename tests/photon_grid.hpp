@@ -32,9 +32,9 @@ struct SortedPhotons {
 
 inline std::size_t sorted_stride(std::size_t photons) { return (photons + 15) & ~std::size_t(7); }
 
-/// Runs count, sum, scan and move as the photon map does, in work-groups of `local`.
-inline SortedPhotons sort_photons(cl::Program& program, const std::vector<Photon>& photons, const Grid& grid,
-                                  std::size_t local = Device::default_local_size) {
+/// Runs count, sum, scan and move as the photon map does.
+inline SortedPhotons sort_photons(cl::Program& program, const std::vector<Photon>& photons,
+                                  const Grid& grid) {
   constexpr std::size_t segment = 256;  // SCAN_SEGMENT
   Device& device = test_device();
   const std::size_t buckets = bucket_count(grid), segments = (buckets + segment - 1) / segment;
@@ -48,7 +48,7 @@ inline SortedPhotons sort_photons(cl::Program& program, const std::vector<Photon
     if (items == 0) return;
     cl::Kernel kernel(program, name);
     set_arguments(kernel, arguments...);
-    device.launch(kernel, items, local);
+    device.launch(kernel, items);
   };
   run("count_photons", photons.size(), in, cursors, grid);
   run("sum_segments", segments, cursors, sums, cl_uint(buckets));

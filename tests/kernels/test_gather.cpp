@@ -34,13 +34,13 @@ struct Sums {
 };
 
 std::vector<Sums> gather(const std::vector<Point>& points, const std::vector<Photon>& photons,
-                         const Grid& grid, float radius2, std::size_t local = Device::default_local_size) {
-  const SortedPhotons map = sort_photons(program(), photons, grid, local);
+                         const Grid& grid, float radius2) {
+  const SortedPhotons map = sort_photons(program(), photons, grid);
   auto in = test_device().upload(points, "points");
   auto out = test_device().buffer(points.size() * sizeof(Sums), "sums");
   cl::Kernel kernel(program(), "gather_points");
   set_arguments(kernel, in, map.starts, map.sorted, out, grid, radius2, cl_uint(points.size()));
-  test_device().launch(kernel, points.size(), local);
+  test_device().launch(kernel, points.size());
   return test_device().download<Sums>(out, points.size());
 }
 
@@ -181,9 +181,11 @@ TEST_CASE("gathered sums depend neither on the order of photons nor on the work-
   const auto points = points_near(random, photons, room, 0.05, 4096);
   const auto expected = gather(points, photons, grid, 0.0025f);
   CHECK(found(expected) > 4096);
+  const WorkGroupSize restored;
   for (const std::size_t local : {1, 32, 256}) {
+    test_device().set_local_size(local);
     std::shuffle(photons.begin(), photons.end(), random.engine);
-    CHECK((gather(points, photons, grid, 0.0025f, local) == expected));
+    CHECK((gather(points, photons, grid, 0.0025f) == expected));
   }
 }
 

@@ -68,7 +68,9 @@ TEST_CASE("the counting sort gives exact prefix sums and a permutation, whatever
       photon.flux_b = static_cast<uint>(random.engine());
     }
     const Grid grid = make_grid({0.1, -0.2, 0.3}, 0.05, c.nx, c.ny, c.nz, c.photons);
-    const SortedPhotons map = sort_photons(program(), photons, grid, c.local);
+    const WorkGroupSize restored;
+    test_device().set_local_size(c.local);
+    const SortedPhotons map = sort_photons(program(), photons, grid);
     const auto starts = test_device().download<uint>(map.starts, bucket_count(grid) + 1);
 
     std::vector<uint> expected(bucket_count(grid) + 1);

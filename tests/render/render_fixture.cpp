@@ -1,0 +1,66 @@
+#include "render_fixture.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+
+#include "device_fixture.hpp"
+
+namespace causticl {
+
+Scene scene_from_text(const std::string& json) {
+  static std::atomic<int> number{0};
+  const auto file = std::filesystem::temp_directory_path() / ("causticl_test_" + std::to_string(::getpid()) +
+                                                              "_" + std::to_string(number++) + ".json");
+  std::ofstream(file) << json;
+  Scene scene = load_scene(file.string());
+  std::filesystem::remove(file);
+  return scene;
+}
+
+Scene shipped_scene(const std::string& name, int width, int height) {
+  SceneOptions options;
+  options.size = {width, height};
+  return load_scene(std::string(CAUSTICL_SOURCE_DIR) + "/scenes/" + name, options);
+}
+
+RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed) {
+  scene.renderer.integrator = integrator;
+  scene.renderer.passes = scene.renderer.samples = passes;
+  RenderOptions options;
+  options.seed = seed;
+  return render_scene(scene, test_device(), options);
+}
+
+double mean_luminance(const Picture& picture) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
+    sum += 0.2126 * picture.rgb[i] + 0.7152 * picture.rgb[i + 1] + 0.0722 * picture.rgb[i + 2];
+  return sum / (static_cast<double>(picture.width) * picture.height);
+}
+
+Picture box_filtered(const Picture& picture, int box) {
+  Picture out{picture.width / box, picture.height / box, {}};
+  out.rgb.assign(3u * out.width * out.height, 0.0f);
+  for (int y = 0; y < out.height * box; ++y)
+    for (int x = 0; x < out.width * box; ++x)
+      for (int c = 0; c < 3; ++c)
+        out.rgb[3 * ((y / box) * out.width + x / box) + c] +=
+            picture.rgb[3 * (y * picture.width + x) + c] / static_cast<float>(box * box);
+  return out;
+}
+
+double relative_mse(const Picture& a, const Picture& b) {
+  double squares = 0, sum = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    const double difference = static_cast<double>(a.rgb[i]) - b.rgb[i];
+    squares += difference * difference;
+    sum += b.rgb[i];
+  }
+  const double count = static_cast<double>(a.rgb.size()), mean = sum / count;
+  return squares / count / (mean * mean);
+}
+
+}  // namespace causticl

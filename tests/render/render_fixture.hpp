@@ -1,0 +1,30 @@
+// What the image tests share: rendering a scene, and comparing pictures.
+#pragma once
+
+#include <string>
+
+#include "image.hpp"
+#include "render.hpp"
+#include "scene.hpp"
+
+namespace causticl {
+
+/// Loads a scene written in the test.
+Scene scene_from_text(const std::string& json);
+
+/// Loads scenes/NAME of the source tree at a small size.
+Scene shipped_scene(const std::string& name, int width, int height);
+
+/// Renders with the integrator and `passes` passes (sppm) or samples a pixel (pt), on the test device.
+RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed = 1);
+
+/// The mean over all pixels of a picture's luminance.
+double mean_luminance(const Picture& picture);
+
+/// A picture of the means of box x box pixels; what does not fill a box at the right and bottom is left out.
+Picture box_filtered(const Picture& picture, int box);
+
+/// mean((a - b)^2) / mean(b)^2 over all channels.
+double relative_mse(const Picture& a, const Picture& b);
+
+}  // namespace causticl
