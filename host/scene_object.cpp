@@ -48,8 +48,8 @@ std::vector<std::array<double, 2>> read_points(const JsonReader& json) {
   bool off_axis = false, distinct = false;
   for (const JsonReader& item : json.items(2, 17, "control points")) {
     const auto xy = item.items(2, 2, "numbers, radius and height");
-    points.push_back({xy[0].number(non_negative_number), xy[1].number()});
-    off_axis |= points.back()[0] > 0;
+    points.push_back({xy[0].number(), xy[1].number()});
+    off_axis |= points.back()[0] != 0;
     distinct |= points.back() != points.front();
   }
   if (!off_axis) json.fail("expected a control point off the axis, got a curve of radius 0");

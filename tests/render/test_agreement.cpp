@@ -1,0 +1,61 @@
+// Two integrators, one truth: path tracing and SPPM of every shipped scene.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <set>
+
+#include "render_fixture.hpp"
+
+using namespace causticl;
+
+namespace {
+
+/// What each scene needs at 64 x 48 until noise and bias are well under the criterion.
+struct Budget {
+  const char* scene;
+  int passes, samples;
+};
+const std::vector<Budget> budgets{
+    {"1_textured_balls.json", 256, 4096}, {"2_glass_knot.json", 256, 8192},   {"3_bezier_solids.json", 256, 4096},
+    {"4_focus_near.json", 256, 4096},     {"5_focus_middle.json", 256, 4096}, {"6_furnished_room.json", 256, 8192},
+    {"7_sppm_room.json", 256, 8192},      {"analytic_sphere.json", 64, 1024}, {"cornell_box.json", 256, 4096},
+    {"furnace.json", 64, 1024},           {"glass_caustic.json", 512, 16384},
+};
+
+}  // namespace
+
+TEST_CASE("every shipped scene has a budget here") {
+  std::set<std::string> shipped, known;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAUSTICL_SOURCE_DIR) + "/scenes"))
+    if (entry.path().extension() == ".json") shipped.insert(entry.path().filename().string());
+  for (const auto& budget : budgets) known.insert(budget.scene);
+  CHECK(shipped == known);
+}
+
+TEST_CASE("every shipped scene renders with both integrators to about the same brightness") {
+  for (const auto& budget : budgets) {
+    INFO(budget.scene);
+    const Scene scene = shipped_scene(budget.scene, 32, 24);
+    const auto sppm = render_with(scene, Integrator::sppm, 8);
+    const auto pt = render_with(scene, Integrator::pt, 128);
+    CHECK(sppm.statistics.non_finite == 0);
+    CHECK(pt.statistics.non_finite == 0);
+    CHECK(mean_luminance(pt.picture) > 0.01);
+    // A coarse check of a coarse picture; the long test has the real criterion.
+    CHECK(mean_luminance(sppm.picture) == Approx(mean_luminance(pt.picture)).epsilon(0.1));
+  }
+}
+
+TEST_CASE("on every shipped scene path tracing and SPPM agree", "[long]") {
+  for (const auto& budget : budgets) {
+    INFO(budget.scene);
+    const Scene scene = shipped_scene(budget.scene, 64, 48);
+    const Picture sppm = render_with(scene, Integrator::sppm, budget.passes).picture;
+    const Picture pt = render_with(scene, Integrator::pt, budget.samples).picture;
+    const double brightness = mean_luminance(sppm) / mean_luminance(pt);
+    const double difference = relative_mse(box_filtered(sppm, 4), box_filtered(pt, 4));
+    UNSCOPED_INFO("brightness ratio " << brightness << ", relative MSE " << difference);
+    printf("%-24s brightness ratio %.5f, relative MSE %.2e\n", budget.scene, brightness, difference);
+    CHECK(brightness == Approx(1).epsilon(0.005));
+    CHECK(difference < 1e-3);
+  }
+}
