@@ -82,7 +82,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 std::string suggestion(const std::string& text, const std::vector<std::string>& names) {
   // Three edits find nothing in a text that is far longer than any name; do not even compare it.
   const std::string* best = nullptr;
-  std::size_t best_distance = 1 + std::max<std::size_t>(1, std::min<std::size_t>(3, text.size() / 3));
+  std::size_t best_distance =
+      std::min<std::size_t>({text.size(), 4, 1 + std::max<std::size_t>(1, text.size() / 3)});
   for (const std::string& name : names) {
     if (text.size() > name.size() + 3) continue;
     const std::size_t distance = edit_distance(lower(text), lower(name));

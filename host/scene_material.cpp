@@ -102,9 +102,9 @@ int read_base_texture(const JsonReader& json, Object::Shape shape, SceneLoader& 
   TextureSpec texture;
   const auto color_space = json.find("color_space");
   const bool srgb = color_space && color_space->choice({"linear", "srgb"}) == 1;
-  texture.image = loader.image(json.at("path"), srgb);
   const double width_ratio = json.number("width_ratio", 1, positive_number);
   const double height_ratio = json.number("height_ratio", 1, positive_number);
+  texture.image = loader.image(json.at("path"), srgb);
   if (shape == Object::Shape::plane) {
     const Image& image = loader.scene.images[static_cast<std::size_t>(texture.image)];
     texture.scale = {1 / (width_ratio * image.width), 1 / (height_ratio * image.height)};

@@ -1,4 +1,5 @@
 // The entries of `objects`.
+#include <algorithm>
 #include <cmath>
 
 #include "scene_loader.hpp"
@@ -42,18 +43,39 @@ bool scales_uniformly(const Transform& transform) {
          std::abs(dot(c, a)) <= tolerance;
 }
 
-// One Bezier curve (radius, height) of degree up to 16.
+// Whether the polynomial with these Bernstein coefficients is below -tolerance somewhere in [0, 1]: it stays
+// within the hull of its coefficients, so halve the interval (de Casteljau) until they decide.
+bool goes_below_zero(const std::vector<double>& coefficients, double tolerance, int halvings = 20) {
+  if (*std::min_element(coefficients.begin(), coefficients.end()) >= -tolerance) return false;
+  if (std::min(coefficients.front(), coefficients.back()) < -tolerance) return true;
+  if (halvings == 0) return false;
+  std::vector<double> first, last = coefficients;
+  for (std::size_t n = coefficients.size(); n > 0; --n) {
+    first.push_back(last[0]);
+    for (std::size_t i = 0; i + 1 < n; ++i) last[i] = (last[i] + last[i + 1]) / 2;
+  }
+  return goes_below_zero(first, tolerance, halvings - 1) || goes_below_zero(last, tolerance, halvings - 1);
+}
+
+// One Bezier curve (radius, height) of degree up to 16. Control points may lie across the axis, the curve may
+// not: its surface would be turned inside out there.
 std::vector<std::array<double, 2>> read_points(const JsonReader& json) {
   std::vector<std::array<double, 2>> points;
-  bool off_axis = false, distinct = false;
+  std::vector<double> radii;
+  bool distinct = false;
+  double largest = 0;
   for (const JsonReader& item : json.items(2, 17, "control points")) {
     const auto xy = item.items(2, 2, "numbers, radius and height");
     points.push_back({xy[0].number(), xy[1].number()});
-    off_axis |= points.back()[0] != 0;
+    radii.push_back(points.back()[0]);
+    largest = std::max(largest, std::abs(radii.back()));
     distinct |= points.back() != points.front();
   }
-  if (!off_axis) json.fail("expected a control point off the axis, got a curve of radius 0");
+  if (largest < positive_number.low)
+    json.fail("expected a control point off the axis, got a curve of radius 0");
   if (!distinct) json.fail("expected control points that differ, got one point");
+  if (goes_below_zero(radii, 1e-9 * largest))
+    json.fail("expected a curve whose radius is nowhere negative, got one that crosses the axis");
   return points;
 }
 
