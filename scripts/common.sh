@@ -6,6 +6,7 @@ build_packages=(g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-hea
   pocl-opencl-icd nlohmann-json3-dev libstb-dev libopenexr-dev libcli11-dev)
 test_packages=(catch2 clang-format)
 lint_packages=(clang-tidy)
+bench_packages=(libembree-dev)
 
 fail() {
   echo "error: $*" >&2

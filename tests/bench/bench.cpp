@@ -1,8 +1,10 @@
 // Benchmarks: `causticl_bench [--quick] [--json FILE] [MESH...]`.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 
+#include "bench/bench_render.hpp"
 #include "bench/bench_traversal.hpp"
 #include "error.hpp"
 
@@ -13,6 +15,7 @@ int main(int argc, char** argv) {
   TraversalBenchOptions traversal;
   std::string device_spec, json_file;
   bool quick = false;
+  int passes = 17;  // the first is not counted
   app.add_option("mesh", traversal.mesh_files, "OBJ or PLY files to trace beside the generated meshes");
   app.add_option("--device", device_spec, "index, cpu, gpu or part of a name");
   app.add_option("--json", json_file, "write the figures to this file");
@@ -25,16 +28,32 @@ int main(int argc, char** argv) {
     traversal.rays = 200000;
     traversal.repetitions = 3;
     traversal.generated = {100000};
+    passes = 5;
   }
   try {
+    const StartBenchResult start = bench_start(device_spec);
     Device device(find_device(device_spec));
-    std::cout << "device " << device.info().name << "\n";
+    std::printf("device %s, OpenCL driver %s, %u compute units\n", device.info().name.c_str(),
+                device.info().driver.c_str(), device.info().compute_units);
+    std::printf(
+        "start  until the first pass is done: %.2f s with an empty kernel cache (%.2f building), %.2f s with "
+        "a full one (%.2f)\n",
+        start.cold, start.cold_build, start.warm, start.warm_build);
+    const auto renders = bench_render(device, passes);
+    std::cout << render_table(renders) << std::flush;
     const auto bench = bench_traversal(device, traversal);
     std::cout << traversal_table(bench);
     if (!json_file.empty()) {
       auto json = traversal_json(bench);
       json["device"] = device.info().name;
-      std::ofstream(json_file) << json.dump(2) << "\n";
+      json["sppm"] = render_json(renders);
+      json["start"] = {{"cold_seconds", start.cold},
+                       {"cold_build_seconds", start.cold_build},
+                       {"warm_seconds", start.warm},
+                       {"warm_build_seconds", start.warm_build}};
+      std::ofstream file(json_file);
+      file << json.dump(2) << "\n";
+      if (!file.flush()) throw UserError("--json " + json_file + ": cannot be written");
     }
   } catch (const std::exception& error) {
     std::cerr << "causticl_bench: " << error.what() << "\n";
