@@ -79,6 +79,28 @@ struct StbSource {
   }
 };
 
+/// Throws for a JPEG with a Huffman table of more than 256 codes: stb_image before 2.28 writes past its own
+/// tables there. Walks the markers as the decoder does, entropy-coded data between them included.
+void check_jpeg_tables(const std::string& bytes) {
+  const auto byte = [&](std::size_t i) {
+    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
+  };
+  if (byte(0) != 0xff || byte(1) != 0xd8) return;
+  for (std::size_t at = bytes.find('\xff', 2); at < bytes.size(); at = bytes.find('\xff', at)) {
+    while (byte(at) == 0xff) ++at;
+    const unsigned marker = byte(at++);
+    if (marker < 0xc0 || (marker >= 0xd0 && marker <= 0xd9)) continue;  // stuffing, restarts, start, end
+    const std::size_t end = at + 256 * byte(at) + byte(at + 1);
+    for (std::size_t table = at + 2; marker == 0xc4 && table < end;) {
+      unsigned codes = 0;
+      for (std::size_t length = 1; length <= 16; ++length) codes += byte(table + length);
+      if (codes > 256) throw std::runtime_error("a Huffman table has more than 256 codes");
+      table += 17 + codes;
+    }
+    at = end;
+  }
+}
+
 /// The value of an sRGB component in [0, 1] (IEC 61966-2-1).
 float srgb_to_linear(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
@@ -121,6 +143,7 @@ void decode_stb(const std::string& bytes, bool srgb, Image& image) {
   if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
   const auto* raw = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto length = static_cast<int>(bytes.size());
+  check_jpeg_tables(bytes);
   if (stbi_is_hdr_from_memory(raw, length))
     decode_stb_as<float>(stbi_loadf_from_callbacks, bytes, srgb, image);
   else if (stbi_is_16_bit_from_memory(raw, length))

@@ -35,11 +35,11 @@ set_up() {
   apt-get install ${missing[*]}"
     fi
   fi
-  echo "Installing from Debian's packages: ${missing[*]}" >&2
+  echo "Installing from Debian's packages (this can take minutes): ${missing[*]}" >&2
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -qq -o Dpkg::Use-Pty=0)
-  # A failed update may still leave lists that serve.
-  "${apt[@]}" update >&2 || true
-  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >&2 ||
+  # A failed update may still leave lists that serve. What goes wrong is said on stderr.
+  "${apt[@]}" update >/dev/null || true
+  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >/dev/null ||
     fail "the packages could not be installed: ${missing[*]}"
 }
 

@@ -142,6 +142,15 @@ TEST_CASE("Damaged and foreign images have one clear line each") {
   CHECK(fault("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\0\0\0\0\x18\0", 18)).find("a.tga: cannot be") ==
         0);
 
+  // A Huffman table (marker FF C4, length, class, 16 counts) of too many codes overruns the decoder's own.
+  std::string jpg;
+  stbi_write_jpg_to_func(append_bytes, &jpg, 2, 2, 4, four_texels.data(), 90);
+  const auto table = jpg.find("\xff\xc4");
+  REQUIRE(table != jpg.npos);
+  CHECK(fault("a.jpg", jpg) == "");
+  jpg.replace(table + 5, 2, "\xff\xff");
+  CHECK(fault("a.jpg", jpg) == "a.jpg: cannot be decoded: a Huffman table has more than 256 codes");
+
   // Every single damaged byte of a small image is refused or decoded, but never a crash.
   const std::string exr = encode_exr(small_picture(), {});
   for (const auto& [name, bytes] :
