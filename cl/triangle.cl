@@ -16,7 +16,7 @@ typedef int8 mask8;
 
 // The ray in the order of axes that the shear wants: z is the axis along which the direction is largest.
 typedef struct {
-  uint x, y, z;             // axes
+  size_t x, y, z;  // offsets of the axes' rows in a block's vertex, in floats
   real origin_x, origin_y, origin_z;
   real shear_x, shear_y, scale_z;
 } ShearedRay;
@@ -25,29 +25,39 @@ INLINE ShearedRay sheared_ray(Ray ray) {
   real3 d = ray.direction, o = ray.origin, a = fabs(d);
   ShearedRay s;
   if (a.x >= a.y && a.x >= a.z) {
-    s.x = 1, s.y = 2, s.z = 0;
+    s.x = 8, s.y = 16, s.z = 0;
     d = d.yzx, o = o.yzx;
   } else if (a.y >= a.z) {
-    s.x = 2, s.y = 0, s.z = 1;
+    s.x = 16, s.y = 0, s.z = 8;
     d = d.zxy, o = o.zxy;
   } else {
-    s.x = 0, s.y = 1, s.z = 2;
+    s.x = 0, s.y = 8, s.z = 16;
   }
   s.origin_x = o.x, s.origin_y = o.y, s.origin_z = o.z;
   s.shear_x = d.x / d.z, s.shear_y = d.y / d.z, s.scale_z = 1 / d.z;
   return s;
 }
 
-// All lanes in one scalar: written out, the compiler finds the single test instruction that CPUs have for it.
-INLINE bool any_lane(mask8 m) { return (m.s0 | m.s1 | m.s2 | m.s3 | m.s4 | m.s5 | m.s6 | m.s7) != 0; }
-
-INLINE bool any_lane_int(int8 m) { return (m.s0 | m.s1 | m.s2 | m.s3 | m.s4 | m.s5 | m.s6 | m.s7) != 0; }
-
-INLINE uint or_lanes(int8 m) {
-  int4 a = m.lo | m.hi;
+// The lanes of a comparison's result, one bit each. Written out by lanes the compilers make a dozen shuffles of it
+// where x86 has one instruction.
+INLINE uint lane_bits(int8 m) {
+#ifdef __AVX__
+  return (uint)__builtin_ia32_movmskps256(as_float8(m));
+#else
+  int8 bits = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  int4 a = bits.lo | bits.hi;
   int2 b = a.lo | a.hi;
   return (uint)(b.x | b.y);
+#endif
 }
+
+#ifdef CAUSTICL_DOUBLE
+INLINE bool any_lane(mask8 m) { return lane_bits(convert_int8(m)) != 0; }
+#else
+INLINE bool any_lane(mask8 m) { return lane_bits(m) != 0; }
+#endif
+
+INLINE uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
 INLINE real min_lane(real8 v) {
   real4 a = min(v.lo, v.hi);
@@ -61,8 +71,8 @@ INLINE int min_lane_int(int8 v) {
   return min(b.x, b.y);
 }
 
-INLINE real8 block_row(global const TriangleBlock *block, uint vertex, uint axis) {
-  return convert_real8(*(global const float8 *)block->position[vertex][axis]);
+INLINE real8 block_row(global const TriangleBlock *block, uint vertex, size_t row) {
+  return convert_real8(*(global const float8 *)(block->position[vertex][0] + row));
 }
 
 // a b - c d with the sign of the exact value.

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   app.add_option("--rays", traversal.rays, "rays of each kind");
   app.add_option("--triangles", traversal.generated, "sizes of the generated meshes");
   app.add_option("--repetitions", traversal.repetitions, "runs, of which the median counts");
+  app.add_option("--kernel-dir", traversal.kernel_dir, "read kernels from here");
   app.add_flag("--quick", quick, "fewer rays, the smaller mesh alone");
   CLI11_PARSE(app, argc, argv);
   if (quick) {

@@ -59,7 +59,7 @@ class MeshBench {
         tree_(timed_build(triangles)),
         embree_(triangles, device.info().compute_units) {
     program_ = device.build("#define EFFECTS " + std::to_string(EFFECT_TRIANGLES) + "u\n" +
-                            flatten_kernel_text(kernels));
+                            flatten_kernel_text(kernels, options.kernel_dir));
     nodes_ = device.upload(tree_.nodes, "nodes");
     blocks_ = device.upload(tree_.blocks, "blocks");
     none_ = device.buffer(0, "nothing");

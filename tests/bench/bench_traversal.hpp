@@ -14,6 +14,7 @@ struct TraversalBenchOptions {
   std::vector<std::string> mesh_files;
   std::size_t rays = 2000000;
   int repetitions = 5;
+  std::string kernel_dir;  // read kernels here in place of the embedded ones
 };
 
 struct TraversalBenchResult {
