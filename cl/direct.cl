@@ -6,13 +6,16 @@
 // against BSDF sampling by the power heuristic (Veach 1997, 9.2). Adds the rays that it traced to *rays.
 static real3 direct_light(const Scene *scene, const Surface *surface, real3 arriving, real3 n, real3 reflectance,
                           real4 random, bool weigh_bsdf, uint *rays) {
-  LightSample light = light_sample(scene, surface->position, random);
-  real cosine = dot(light.direction, n);
+  // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
+  // longer than the margin that keeps the ray from meeting the light itself.
   real3 g = surface->geometric_normal;
+  real3 origin = offset_origin(surface->position, surface->error, g, dot(arriving, g) < 0 ? g : -g);
+  LightSample light = light_sample(scene, origin, random);
+  real cosine = dot(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
   bool same_side = dot(light.direction, g) * dot(arriving, g) < 0;
   if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
-  Ray shadow = {offset_origin(surface->position, surface->error, g, light.direction), light.direction};
+  Ray shadow = {origin, light.direction};
   ++*rays;
   if (geometry_occluded(&scene->geometry, shadow, light.distance - light.margin)) return (real3)(0, 0, 0);
   real weight = 1;

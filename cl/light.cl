@@ -100,9 +100,12 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
       sample.direction = cone_uniform(random.yz, to_centre / sqrt(distance2), one_minus_cos);
       real along = dot(to_centre, sample.direction);
       real3 miss = to_centre - along * sample.direction;
-      sample.distance = along - sqrt(max((real)0, radius * radius - dot(miss, miss)));
+      real half_chord = sqrt(max((real)0, radius * radius - dot(miss, miss)));
+      sample.distance = along - half_chord;
       sample.pdf = emitter->probability / (2 * PI * one_minus_cos);
-      sample.margin = (real)1e-5f * (sample.distance + radius);
+      // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
+      real rounding = GAMMA(16) * (max_component(fabs(position)) + max_component(fabs(to_centre)) + radius);
+      sample.margin = (real)1e-5f * sample.distance + radius * rounding / max(half_chord, rounding);
       sample.weight = radiance / sample.pdf;
       return sample;
     }

@@ -10,7 +10,6 @@
 static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays) {
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
-  real3 last_position = ray.origin;
   for (uint depth = 0; depth <= max_depth; ++depth) {
     Hit hit = {INFINITY, HIT_NONE, 0, 0};
     ++*rays;
@@ -23,7 +22,7 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
     if (max_component(emission) > 0) {
       real weight = 1;
       if (bsdf_pdf > 0) {
-        real pdf = light_pdf(scene, last_position, ray.direction, hit, &surface, material);
+        real pdf = light_pdf(scene, ray.origin, ray.direction, hit, &surface, material);
         weight = bsdf_pdf * bsdf_pdf / (bsdf_pdf * bsdf_pdf + pdf * pdf);
       }
       radiance += throughput * emission * weight;
@@ -46,7 +45,6 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
     }
     if (!(max_component(throughput) > 0)) break;
     bsdf_pdf = next.pdf;
-    last_position = surface.position;
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }
