@@ -1,66 +1,19 @@
-#include <fcntl.h>
 #include <stb/stb_image_write.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include "error.hpp"
 #include "image_formats.hpp"
+#include "output_file.hpp"
 
 namespace causticl {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const std::string& file, const std::string& fault) {
-  throw UserError(file + ": cannot be written: " + fault);
-}
-
-/// A new file in the folder of `file`, gone again unless it is renamed to `file`.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& file) : file_(file) {
-    static std::atomic<unsigned> count{0};
-    const std::string name = ".causticl-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".tmp";
-    path_ = fs::path(file).parent_path() / name;
-    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail(file, std::strerror(errno));
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!path_.empty()) unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write(const std::string& bytes) {
-    for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (count < 0 && errno != EINTR) fail(file_, std::strerror(errno));
-      if (count > 0) done += static_cast<std::size_t>(count);
-    }
-  }
-
-  void rename_to_target() {
-    const int result = close(descriptor_);
-    descriptor_ = -1;
-    if (result != 0) fail(file_, std::strerror(errno));
-    if (std::rename(path_.c_str(), file_.c_str()) != 0) fail(file_, std::strerror(errno));
-    path_.clear();
-  }
-
- private:
-  std::string file_;
-  fs::path path_;
-  int descriptor_ = -1;
-};
 
 std::string lower_extension(const std::string& file) {
   std::string extension = fs::path(file).extension().string();
@@ -93,16 +46,7 @@ void check_output(const std::string& file) {
   const std::string extension = lower_extension(file);
   if (extension != ".png" && extension != ".exr" && extension != ".pfm")
     throw UserError(file + ": unknown output format; expected a name that ends in .png, .exr or .pfm");
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
-  std::error_code error;
-  const auto folder_status = fs::status(folder, error);
-  if (!fs::exists(folder_status)) fail(file, "there is no folder " + folder.string() + "; create it first");
-  if (!fs::is_directory(folder_status)) fail(file, folder.string() + " is not a folder");
-  const auto status = fs::status(file, error);
-  if (fs::is_directory(status)) fail(file, "a folder has this name");
-  if (error && status.type() != fs::file_type::not_found) fail(file, error.message());
-  // Permissions alone do not tell (root, read-only and full file systems): try.
-  const TemporaryFile probe(file);
+  check_writable(file);
 }
 
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata) {
@@ -114,11 +58,9 @@ void write_picture(const std::string& file, const Picture& picture, const Metada
             : extension == ".exr" ? encode_exr(picture, metadata)
                                   : encode_pfm(picture);
   } catch (const std::exception& error) {
-    fail(file, error.what());
+    throw UserError(file + ": cannot be written: " + error.what());
   }
-  TemporaryFile temporary(file);
-  temporary.write(bytes);
-  temporary.rename_to_target();
+  write_file(file, bytes);
 }
 
 }  // namespace causticl

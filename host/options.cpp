@@ -1,7 +1,5 @@
 #include "options.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "error.hpp"
 #include "image.hpp"
+#include "output_file.hpp"
 
 namespace causticl {
 namespace {
@@ -157,18 +156,6 @@ std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
          "--help`)";
 }
 
-void check_folder_of(const std::string& file, const std::string& option) {
-  const std::filesystem::path path(file);
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored))
-    throw UserError(option + " " + file + ": there is no folder " + folder.string() + "; create it first");
-  if (std::filesystem::is_directory(path, ignored))
-    throw UserError(option + " " + file + ": this is a folder; expected the name of a file");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw UserError(option + " " + file + ": the folder " + folder.string() + " cannot be written to");
-}
-
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -241,7 +228,7 @@ std::vector<std::string> output_files(const Options& options, const Scene& scene
 
 void check_outputs(const Options& options, const std::vector<std::string>& outputs) {
   for (const auto& file : outputs) check_output(file);
-  if (!options.stats_json.empty()) check_folder_of(options.stats_json, "--stats-json");
+  if (!options.stats_json.empty()) check_writable(options.stats_json);
 }
 
 std::string threads_notice(const Options& options, const DeviceInfo& info) {

@@ -1,15 +1,10 @@
 #include "report.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "error.hpp"
 #include "progress.hpp"
 
 namespace causticl {
@@ -129,20 +124,6 @@ std::string statistics_json(const Statistics& s) {
                                          {"kernel_launches", launches}};
   // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-void write_statistics(const std::string& file, const Statistics& statistics) {
-  const std::string temporary = file + "." + std::to_string(getpid()) + ".tmp";
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << statistics_json(statistics);
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(temporary, file, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw UserError("--stats-json " + file + ": cannot be written" + (error ? ": " + error.message() : ""));
-  }
 }
 
 std::string device_list(const std::vector<DeviceInfo>& devices) {

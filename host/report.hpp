@@ -19,9 +19,6 @@ std::string statistics_table(const Statistics& statistics);
 /// The object of --stats-json: every number of the table, times in seconds but for the kernels' milliseconds.
 std::string statistics_json(const Statistics& statistics);
 
-/// Writes the object under a temporary name, then renames it. Throws UserError.
-void write_statistics(const std::string& file, const Statistics& statistics);
-
 /// Every device with its index. Throws DeviceError where there is none.
 std::string device_list(const std::vector<DeviceInfo>& devices);
 

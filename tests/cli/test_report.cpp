@@ -2,12 +2,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "error.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -209,15 +207,6 @@ TEST_CASE("a device name that is not UTF-8 does no harm to the JSON") {
   Statistics statistics = example_statistics();
   statistics.device = "bad \xff name";
   CHECK(nlohmann::json::parse(statistics_json(statistics)).contains("device"));
-}
-
-TEST_CASE("statistics that cannot be written are the user's error and leave nothing behind") {
-  const auto folder = std::filesystem::temp_directory_path() / "causticl_test_report";
-  std::filesystem::create_directories(folder / "folder.json/inside");
-  CHECK_THROWS_AS(write_statistics((folder / "missing/a.json").string(), {}), UserError);
-  CHECK_THROWS_AS(write_statistics((folder / "folder.json").string(), {}), UserError);
-  CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a scene's summary counts its objects and finds its emitters") {

@@ -1,0 +1,83 @@
+// causticl: the whole flow, one call a line.
+#include <cstdio>
+#include <new>
+
+#include "error.hpp"
+#include "interruption.hpp"
+#include "options.hpp"
+#include "output_file.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace {
+
+using namespace causticl;
+
+enum ExitCode { done = 0, fault_of_causticl = 1, fault_of_input = 2, fault_of_device = 3, interrupted = 130 };
+
+int render(const Options& options) {
+  Scene scene = load_scene(options.scene, options.scene_options);
+  apply_options(options, scene);
+  const auto outputs = output_files(options, scene);
+  check_outputs(options, outputs);
+
+  ProgressReport progress(stderr, options.quiet);
+  for (const auto& notice : scene.notices) progress.note(notice);
+  const DeviceInfo device_info = find_device(options.device);
+  progress.note(threads_notice(options, device_info));
+  Device device(device_info, options.threads);
+
+  interruption_listen(options.quiet);
+  const RenderResult result = render_scene(
+      scene, device, render_options(options, outputs), [&](const Progress& now) { progress.update(now); },
+      [&](const std::string& text) { progress.note(text); }, interruption_requested);
+
+  progress.finish(outputs, result.statistics);
+  if (options.stats) std::fputs(statistics_table(result.statistics).c_str(), stdout);
+  if (!options.stats_json.empty()) write_file(options.stats_json, statistics_json(result.statistics));
+  return result.statistics.stop == StopReason::interrupted ? interrupted : done;
+}
+
+int print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return done;
+}
+
+int run(const Options& options) {
+  switch (options.command) {
+    case Options::Command::render:
+      return render(options);
+    case Options::Command::devices:
+      return print(device_list(list_devices()));
+    case Options::Command::info:
+      return print(scene_summary(load_scene(options.scene, options.scene_options)));
+    case Options::Command::print:
+      break;
+  }
+  return print(options.text);
+}
+
+int fail(const std::string& message, ExitCode code) {
+  std::fprintf(stderr, "causticl: error: %s\n", message.c_str());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(parse_options(argc, argv));
+  } catch (const UserError& error) {
+    return fail(error.what(), fault_of_input);
+  } catch (const DeviceError& error) {
+    return fail(error.what(), fault_of_device);
+  } catch (const cl::Error& error) {
+    return fail(
+        "the OpenCL call " + std::string(error.what()) + " failed with " + std::to_string(error.err()),
+        fault_of_device);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; a smaller --size or --photons needs less", fault_of_device);
+  } catch (const std::exception& error) {
+    return fail(std::string("unexpected: ") + error.what(), fault_of_causticl);
+  }
+}
