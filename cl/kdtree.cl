@@ -76,12 +76,13 @@ INLINE void node_intervals(global const KdNode *node, SlabRay ray, float8 *enter
 // plane parts two cells at t = p, widened by w, the middles of their intervals can be in the wrong order only if the
 // later one is left before p + 3 w. For a ray within a split plane w is huge, and it never ends early.
 INLINE bool hit_is_final(global const KdNode *node, uint slot, SlabRay ray, float t) {
-  float near_x = fma(node->bounds[0][ray.near_x + slot] - ray.origin.x, ray.inverse.x, 4 * ray.widening.x);
-  float near_y = fma(node->bounds[0][ray.near_y + slot] - ray.origin.y, ray.inverse.y, 4 * ray.widening.y);
-  float near_z = fma(node->bounds[0][ray.near_z + slot] - ray.origin.z, ray.inverse.z, 4 * ray.widening.z);
-  float far_x = fma(node->bounds[0][ray.far_x + slot] - ray.origin.x, ray.inverse.x, -ray.widening.x);
-  float far_y = fma(node->bounds[0][ray.far_y + slot] - ray.origin.y, ray.inverse.y, -ray.widening.y);
-  float far_z = fma(node->bounds[0][ray.far_z + slot] - ray.origin.z, ray.inverse.z, -ray.widening.z);
+  global const float *planes = node->bounds[0] + slot;
+  float near_x = fma(planes[ray.near_x] - ray.origin.x, ray.inverse.x, 4 * ray.widening.x);
+  float near_y = fma(planes[ray.near_y] - ray.origin.y, ray.inverse.y, 4 * ray.widening.y);
+  float near_z = fma(planes[ray.near_z] - ray.origin.z, ray.inverse.z, 4 * ray.widening.z);
+  float far_x = fma(planes[ray.far_x] - ray.origin.x, ray.inverse.x, -ray.widening.x);
+  float far_y = fma(planes[ray.far_y] - ray.origin.y, ray.inverse.y, -ray.widening.y);
+  float far_z = fma(planes[ray.far_z] - ray.origin.z, ray.inverse.z, -ray.widening.z);
   return max(t, max(near_x, max(near_y, near_z))) <= min(far_x, min(far_y, far_z));
 }
 

@@ -29,8 +29,13 @@ typedef float8 real8;
 #define REAL_MAX FLT_MAX
 #endif
 
-// Large helpers are not inlined by PoCL by themselves; in traversal that costs 10-15%.
+// Large helpers are not inlined by PoCL by themselves; in traversal that costs 10-15%. Oclgrind runs kernels
+// unoptimised and knows no inlined calls: there CAUSTICL_NO_INLINE leaves functions as they are.
+#ifdef CAUSTICL_NO_INLINE
+#define INLINE static inline
+#else
 #define INLINE __attribute__((always_inline)) static inline
+#endif
 
 #define PI ((real)3.14159265358979323846)
 #define INV_PI ((real)0.31830988618379067154)

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Usage: scripts/oclgrind.sh [SCENE...]
+# Runs the kernels of both integrators under Oclgrind, which reports accesses out of bounds, data races and
+# barrier divergence, on tiny pictures of the SCENEs (all that are shipped, where none is named). Takes minutes.
+set -euo pipefail
+source "$(dirname "$0")/common.sh"
+
+set_up "${build_packages[@]}" oclgrind
+build build causticl
+scenes=("$@")
+[ $# -gt 0 ] || scenes=("$root"/scenes/*.json)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failed=0
+for scene in "${scenes[@]}"; do
+  for integrator in sppm pt; do
+    # Optimised kernels make Oclgrind 21.10 loop for ever, and it knows no inlined calls.
+    if messages=$(oclgrind --data-races --build-options "-cl-opt-disable -DCAUSTICL_NO_INLINE" \
+      "$root/build/causticl" render "$scene" --integrator $integrator --size 5x4 --photons 100 --passes 2 --samples 2 \
+      --quiet -o "$folder/picture.pfm" 2>&1) && [ -z "$messages" ]; then
+      echo "clean: $(basename "$scene") $integrator"
+    else
+      echo "FAILED: $(basename "$scene") $integrator"
+      head -40 <<<"$messages"
+      failed=$((failed + 1))
+    fi
+  done
+done
+[ $failed -eq 0 ] || fail "Oclgrind has complaints about $failed renders (above)"
