@@ -36,7 +36,8 @@ TEST_CASE("every shipped scene has a budget here") {
 TEST_CASE("every shipped scene renders with both integrators to about the same brightness") {
   for (const auto& budget : budgets) {
     INFO(budget.scene);
-    const Scene scene = shipped_scene(budget.scene, 32, 24);
+    Scene scene = shipped_scene(budget.scene, 32, 24);
+    scene.renderer.photons = 50000;
     const auto sppm = render_with(scene, Integrator::sppm, 8);
     const auto pt = render_with(scene, Integrator::pt, 128);
     CHECK(sppm.statistics.non_finite == 0);
