@@ -269,7 +269,7 @@ TEST_CASE("diffuse_sample has the density that it states and passes on the albed
     input.geometric = input.shading = to_float4(n);
     input.random = {uniform24(random), uniform24(random), uniform24(random), uniform24(random)};
   }
-  const SquareBins bins{32, 32};
+  const SquareBins bins{16, 16};
   Histogram histogram(bins.count());
   histogram.probabilities.assign(bins.count(), 1.0 / static_cast<double>(bins.count()));
   const Frame frame(n);

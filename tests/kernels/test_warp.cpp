@@ -96,7 +96,7 @@ TEST_CASE("hemisphere_cosine has density cos / pi about any normal and stays abo
   for (const Vec3 exact : axes(random)) {
     const float4 axis = to_float4(exact);
     const Frame frame(normalize(to_vec3(axis)));
-    const SquareBins bins{32, 32};
+    const SquareBins bins{16, 16};     // few, so that a density wrong by 1% shows
     Histogram histogram = flat(bins);  // cos^2 and the turn are both uniform
     std::size_t wrong = 0;
     for (const Vec3 v : warp(uniform, cosine, axis)) {
@@ -115,7 +115,7 @@ TEST_CASE("hemisphere_cosine has density cos / pi about any normal and stays abo
 
 TEST_CASE("sphere_uniform is uniform over the sphere") {
   RandomInputs random(12);
-  const SquareBins bins{32, 32};
+  const SquareBins bins{16, 16};  // few, so that a density wrong by 1% shows
   Histogram histogram = flat(bins);
   std::size_t wrong = 0;
   for (const Vec3 v : warp(uniform_tuples(random, sample_count), sphere)) {
@@ -153,7 +153,7 @@ TEST_CASE("cone_uniform is uniform within its cone, narrow or wide") {
 
 TEST_CASE("disc_uniform is uniform over the unit disc, and neighbours stay neighbours") {
   RandomInputs random(14);
-  const SquareBins bins{32, 32};
+  const SquareBins bins{16, 16};  // few, so that a density wrong by 1% shows
   Histogram histogram = flat(bins);
   for (const Vec3 v : warp(uniform_tuples(random, sample_count), disc))
     histogram.add(bins.bin(v.x * v.x + v.y * v.y, turn(v.y, v.x)));
