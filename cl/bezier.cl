@@ -14,7 +14,7 @@
 //   3 orientation of the normal
 //   8 for each group of eight spans: y_low[8], y_high[8], x_low^2[8], x_high^2[8], padded
 //   then for each span: (x, y) coefficients of w^0 ... w^5, w in [-1, 1]; unit tangents at w = -1 and 1; the
-//   curve parameters at w = -1 and 1; padding to 24
+//   curve parameters at w = -1 and 1; for w = -1 and 1 whether the surface goes on smoothly there; padding to 24
 #include "effects.h"
 #include "ray.cl"
 #include "types.h"
@@ -27,8 +27,9 @@
 #define BEZIER_APART ((real)2.4e-7)       // arcs farther apart than this do not touch: rounding of a coordinate
 #define BEZIER_COINCIDENT ((real)4.8e-7)  // arcs nowhere farther apart than this do
 #define BEZIER_ERROR ((real)1.9e-6)       // offset of spawned rays, above both
-#define BEZIER_OVERLAP ((real)2e-6)       // arcs reach beyond their ends by this, so that joints do not leak
-#define BEZIER_LEVELS 14u                 // halvings of a span
+#define BEZIER_OVERLAP ((real)2e-6)       // arcs reach beyond their ends by at least this, so that joints do not leak
+#define BEZIER_STRAIGHT ((real)2e-5)      // transversal arcs as short as this are their chords
+#define BEZIER_LEVELS 15u                 // halvings of a span
 #define BEZIER_STEPS 1000u                // pairs of arcs looked at for one span
 
 INLINE real cross2(real2 a, real2 b) { return a.x * b.y - a.y * b.x; }
@@ -100,22 +101,45 @@ INLINE void bezier_span_intersect(global const float *span, Ray ray, real t_firs
         // that the arcs are transversal everywhere.
         real2 tangent0 = bezier_tangent(span, w0, curve0.zw), tangent1 = bezier_tangent(span, w1, curve1.zw);
         real2 way0 = (real2)(side * fabs(path0.z), path0.w), way1 = (real2)(side * fabs(path1.z), path1.w);
-        real margin0 = (real)1e-3 * (fabs(tangent0.x) + fabs(tangent0.y));
-        real margin1 = (real)1e-3 * (fabs(tangent1.x) + fabs(tangent1.y));
-        real c00 = cross2(tangent0, way0), c01 = cross2(tangent0, way1);
-        real c10 = cross2(tangent1, way0), c11 = cross2(tangent1, way1);
-        bool transversal = (min(c00, c01) > margin0 && min(c10, c11) > margin1) ||
-                           (max(c00, c01) < -margin0 && max(c10, c11) < -margin1);
+        real size0 = 1 / (fabs(tangent0.x) + fabs(tangent0.y)), size1 = 1 / (fabs(tangent1.x) + fabs(tangent1.y));
+        real4 crosses = (real4)(cross2(tangent0, way0) * size0, cross2(tangent0, way1) * size0,
+                                cross2(tangent1, way0) * size1, cross2(tangent1, way1) * size1);
+        real2 least = fmin(crosses.xy, crosses.zw), most = fmax(crosses.xy, crosses.zw);
+        real cross_low = min(least.x, least.y), cross_high = max(most.x, most.y);
+        bool transversal = cross_low > (real)1e-3 || cross_high < (real)-1e-3;
+        // So steady that the arcs, made longer by half, stay transversal.
+        bool steady = 2 * min(fabs(cross_low), fabs(cross_high)) > max(fabs(cross_low), fabs(cross_high));
         descend = true;
         if (transversal) {
-          // Newton's iteration for both parameters from the crossing of the chords. Its limit is the only
-          // crossing there is, inside or outside.
+          // Newton's iteration for both parameters from the crossing of the chords. A limit inside is the only
+          // crossing there is; a limit outside says that there is none only where that stays true outside.
           real2 chord = curve1.xy - curve0.xy, leg = path1.xy - path0.xy, gap = path0.xy - curve0.xy;
           real determinant = cross2(chord, leg);
-          real w = w0 + (w1 - w0) * clamp(cross2(gap, leg) / determinant, (real)0, (real)1);
-          real t = t0 + (t1 - t0) * clamp(cross2(gap, chord) / determinant, (real)0, (real)1);
-          real reach_w = w1 - w0, reach_t = t1 - t0 + BEZIER_OVERLAP;
-          for (int i = 0; i < 8; ++i) {
+          real fraction_w = cross2(gap, leg) / determinant, fraction_t = cross2(gap, chord) / determinant;
+          real w = w0 + (w1 - w0) * clamp(fraction_w, (real)0, (real)1);
+          real t = t0 + (t1 - t0) * clamp(fraction_t, (real)0, (real)1);
+          real reach_w = w1 - w0, reach_t = t1 - t0 + (real)1e-3;
+          real length = fabs(chord.x) + fabs(chord.y);
+          // How far along either arc the rounding of positions may move the crossing; an edge stays sharp.
+          real overlap = BEZIER_APART / min(fabs(cross_low), fabs(cross_high)) + BEZIER_OVERLAP;
+          // Arcs shorter than that would be found coincident, so their own length is enough.
+          real overlap_w = min(overlap, length);
+          real overlap_low = fma(overlap_w, w0 > -1 ? (real)1 : (real)span[18], BEZIER_OVERLAP);
+          real overlap_high = fma(overlap_w, w1 < 1 ? (real)1 : (real)span[19], BEZIER_OVERLAP);
+          real leg_length = fabs(leg.x) + fabs(leg.y);
+          if (length + leg_length < BEZIER_STRAIGHT) {
+            descend = false;
+            if (fraction_w * length > -overlap_low && (fraction_w - 1) * length < overlap_high &&
+                fabs(fraction_t - (real)0.5) * leg_length < (real)0.5 * leg_length + overlap && t > 0 &&
+                t < *t_best) {
+              *t_best = t;
+              *w_best = w;
+              *unresolved = false;
+            }
+          }
+          // Where the profile slows down and turns back, at a cusp, the iteration creeps or leaves: halve.
+          real least_advance = (real)0.02 * dot(chord, chord) / reach_w;
+          for (int i = 0; i < 8 && descend; ++i) {
             real4 c = bezier_evaluate(span, w), p = bezier_path(ray, t);
             real2 rest = p.xy - c.xy;
             real scale = 1 / cross2(c.zw, p.zw);
@@ -123,15 +147,17 @@ INLINE void bezier_span_intersect(global const float *span, Ray ray, real t_firs
             w += dw;
             t += dt;
             if (!(w > w0 - reach_w && w < w1 + reach_w && t > t0 - reach_t && t < t1 + reach_t)) break;
+            if (dot(c.zw, chord) < least_advance) break;
             real speed = fabs(c.z) + fabs(c.w);
             if (fabs(dw) * speed + fabs(dt) < (real)1e-4) {
-              descend = false;
-              real overlap_w = BEZIER_OVERLAP / max(speed, (real)1e-3);
-              if (w >= w0 - overlap_w && w <= w1 + overlap_w && t >= t0 - BEZIER_OVERLAP &&
-                  t <= t1 + BEZIER_OVERLAP && t > 0 && t < *t_best) {
+              bool within = w >= w0 && w <= w1 && t >= t0 && t <= t1;
+              if ((w0 - w) * speed <= overlap_low && (w - w1) * speed <= overlap_high && t >= t0 - overlap && t <= t1 + overlap &&
+                  t > 0 && t < *t_best) {
                 *t_best = t;
                 *w_best = clamp(w, (real)-1, (real)1);
+                *unresolved = false;
               }
+              descend = !(within || steady);
               break;
             }
           }
@@ -149,20 +175,23 @@ INLINE void bezier_span_intersect(global const float *span, Ray ray, real t_firs
           real sag = -normal.x * fabs(way1.x - way0.x) * (t1 - t0) * (real)0.25;  // rho(t) is convex
           real path_low = min(d0, d1) + min(sag, (real)0), path_high = max(d0, d1) + max(sag, (real)0);
           real curve_low = min(bulge, (real)0), curve_high = max(bulge, (real)0);
-          if (path_low > curve_high + BEZIER_APART || path_high < curve_low - BEZIER_APART) {
-            descend = false;
-          } else {
-            bool coincident = max(path_high, curve_high) - min(path_low, curve_low) < BEZIER_COINCIDENT;
-            bool exhausted = level == BEZIER_LEVELS || step >= BEZIER_STEPS;
-            if (coincident || exhausted) {
-              descend = false;
-              *unresolved |= !coincident;
-              real t = (t0 + t1) * (real)0.5;
-              if (t > 0 && t < *t_best) {
-                *t_best = t;
-                *w_best = (w0 + w1) * (real)0.5;
-              }
-            }
+          bool apart = path_low > curve_high + BEZIER_APART || path_high < curve_low - BEZIER_APART;
+          bool coincident = max(path_high, curve_high) - min(path_low, curve_low) < BEZIER_COINCIDENT;
+          real t = (t0 + t1) * (real)0.5;
+          // An arc of the profile no longer than rounding has no direction: a point beside a straight path.
+          if (dot(chord, along) < BEZIER_COINCIDENT && fabs(sag) < BEZIER_COINCIDENT) {
+            real2 leg = path1.xy - path0.xy, gap = curve0.xy - path0.xy;
+            real leg_length2 = max(dot(leg, leg), (real)1e-30);
+            coincident = fabs(cross2(leg, gap)) < BEZIER_COINCIDENT * sqrt(leg_length2);
+            apart = !coincident;
+            t = fma(t1 - t0, clamp(dot(leg, gap) / leg_length2, (real)0, (real)1), t0);
+          }
+          bool exhausted = level == BEZIER_LEVELS || step >= BEZIER_STEPS;
+          descend = !(apart || coincident || exhausted);
+          if (!apart && !descend && t > 0 && t < *t_best) {
+            *t_best = t;
+            *w_best = (w0 + w1) * (real)0.5;
+            *unresolved = !coincident;
           }
         }
       }

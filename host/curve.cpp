@@ -195,6 +195,12 @@ Profile make_profile(const CurvePoints& points) {
   return profile;
 }
 
+// Whether `next` goes on where `span` ends, in about the same direction: no cusp, no reflection at the axis.
+bool smooth(const Span& span, const Span& next) {
+  const auto &a = span.tangent_last, &b = next.tangent_first;
+  return span.to == next.from && a[0] * b[0] + a[1] * b[1] > 0.9;
+}
+
 }  // namespace
 
 std::vector<float> curve_data(const CurvePoints& points) {
@@ -232,6 +238,9 @@ std::vector<float> curve_data(const CurvePoints& points) {
     }
     set(first + 16, span.from);
     set(first + 17, span.to);
+    set(first + 18, x_low == span.x.front() && x_low <= 0 ? 1 : i > 0 && smooth(profile.spans[i - 1], span));
+    set(first + 19,
+        x_low == span.x.back() && x_low <= 0 ? 1 : i + 1 < count && smooth(span, profile.spans[i + 1]));
   }
   return data;
 }
