@@ -33,6 +33,7 @@ std::uint16_t to_half(float value) {
     value = -value;
   }
   if (!(value < 65504.0f)) return static_cast<std::uint16_t>(sign | (value == value ? 0x7bff : 0));
+  if (value == 0) return sign;  // frexp gives 0 the exponent of 1/4
   // The smallest normal half is 2^-14; below it the spacing stays 2^-24.
   int exponent;
   std::frexp(value, &exponent);
