@@ -48,6 +48,7 @@ def texture(build, srgb_coded=False, colours=None):
 
 OAK = srgb(120, 74, 40), srgb(206, 150, 92)
 WALNUT = srgb(84, 50, 34), srgb(156, 100, 64)
+MAPLE = srgb(172, 136, 98), srgb(228, 202, 164)
 
 ASSETS = {
     # Meshes. Glass ones are closed; OBJ where faces have more than three corners, PLY where there are many.
@@ -63,10 +64,10 @@ ASSETS = {
     "sofa.ply": ply(models.sofa),
     "cushion.ply": ply(models.cushion),
     "floor_lamp.ply": ply(models.floor_lamp),
+    "pendant_shade.ply": ply(models.pendant_shade),
     "painting_frame.obj": obj(models.painting_frame),
     "canvas.obj": obj(models.canvas),
     "rug.obj": obj(models.rug),
-    "ring_lamp.ply": ply(models.ring_lamp),
     "disc_lamp.obj": obj(models.disc_lamp),
     "mirror_ring.ply": ply(models.mirror_ring),
     # Textures for base-format scenes, which read texels undecoded: these hold linear values.
@@ -83,7 +84,7 @@ ASSETS = {
     "planet.jpg": texture(lambda: textures.planet(512, 8)),
     "logo.png": texture(lambda: logo.logo(512, logo.INK, logo.GOLD, srgb(250, 250, 250))),
     # Textures for the extended scenes, decoded from sRGB.
-    "oak_srgb.jpg": texture(lambda: textures.wood(800, 640, 6, *OAK, 17), srgb_coded=True),
+    "maple_srgb.jpg": texture(lambda: textures.wood(800, 640, 5, *MAPLE, 17), srgb_coded=True),
 }
 
 

@@ -120,6 +120,12 @@ def floor_lamp():
                      (3.4, 66.2), (4.3, 67.2), (4.0, 67.9), (3.0, 68.1), (0, 68.2)], samples=3, segments=36)
 
 
+def pendant_shade():
+    """The bell of a pendant lamp, open below: its rim has the radius 15 at y = 0, its top is at 12."""
+    return revolved([(0, 10.4), (3.5, 10.1), (8, 8.2), (11.6, 4.8), (14.2, 0.5), (14.7, 0), (15.1, 0.4), (12.6, 5.2),
+                     (8.8, 9.2), (3.9, 11.5), (0, 12)], samples=3, segments=48)
+
+
 def painting_frame():
     """A profile of four bars round a canvas of 48 x 32 in z = 0."""
     bars = [rounded_box((54, 3.4, 3), 1, 2).moved((0, y, 0)) for y in (-17.2, 17.2)]
@@ -134,15 +140,6 @@ def canvas():
 def rug():
     """A rug of 110 x 70 lying 0.4 above the floor, uvs seen from above."""
     return picture(110, 70).moved((0, 0.4, 0), turn=(-90, 0, 0))
-
-
-def ring_lamp():
-    """A flat luminous ring in y = 0, radii 0.72 and 1."""
-    angle = 2 * np.pi * np.arange(64) / 64
-    circle = np.stack([np.cos(angle), 0 * angle, -np.sin(angle)], 1)
-    faces = [(i, (i + 1) % 64, 64 + (i + 1) % 64, 64 + i) for i in range(64)]
-    mesh = Mesh(np.concatenate([0.72 * circle, circle]), [(0, -1, 0)] * 128, faces)
-    return oriented(mesh)
 
 
 def disc_lamp():
