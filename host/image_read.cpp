@@ -47,17 +47,18 @@ std::string read_bytes(const std::string& file) {
   throw UserError(file + ": cannot be decoded: " + line);
 }
 
-/// Feeds stb from memory and notices when it asks for more than there is: stb itself decodes what a truncated
-/// JPEG, BMP, TGA or HDR lacks as black.
+/// Feeds stb from memory, and throws when it asks for more than there is: stb itself takes what a truncated
+/// JPEG, BMP, TGA or HDR lacks for zeros, and can look for the end of an HDR for ever. (What stb has
+/// allocated by then is lost; a run that meets such a file ends.)
 struct StbSource {
   const std::string& bytes;
   std::size_t position = 0;
-  bool ended_early = false;
 
   int read(char* target, int size) {
     // stb fills its buffer of 128 bytes as far as it can; any other size is data that it needs.
     const std::size_t count = std::min(static_cast<std::size_t>(size), bytes.size() - position);
-    if (count == 0 || (count < static_cast<std::size_t>(size) && size != 128)) ended_early = true;
+    if (count == 0 || (count < static_cast<std::size_t>(size) && size != 128))
+      throw std::runtime_error("it ends early; is it truncated?");
     std::memcpy(target, bytes.data() + position, count);
     position += count;
     return static_cast<int>(count);
@@ -106,6 +107,8 @@ float srgb_to_linear(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
+constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR or EXR";
+
 template <typename T>
 using StbLoader = T* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
 
@@ -118,10 +121,10 @@ void decode_stb_as(StbLoader<T> load, const std::string& bytes, bool srgb, Image
   int channels = 0;
   const std::unique_ptr<T, void (*)(void*)> pixels(
       load(&io, &source, &image.width, &image.height, &channels, 4), stbi_image_free);
-  const std::string fault = pixels ? "" : stbi_failure_reason();
-  if (fault == "unknown image type") throw std::runtime_error("expected PNG, JPEG, BMP, TGA, HDR or EXR");
-  if (source.ended_early) throw std::runtime_error("it ends early; is it truncated?");
-  if (!pixels) throw std::runtime_error(fault);
+  if (!pixels) {
+    const std::string fault = stbi_failure_reason();
+    throw std::runtime_error(fault == "unknown image type" ? unknown_type : fault);
+  }
   check_image_size(image.width, image.height);
 
   image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
@@ -143,6 +146,8 @@ void decode_stb(const std::string& bytes, bool srgb, Image& image) {
   if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
   const auto* raw = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto length = static_cast<int>(bytes.size());
+  constexpr std::size_t smallest = 18;  // a TGA's header; with less stb could not even look for the type
+  if (bytes.size() < smallest) throw std::runtime_error(unknown_type);
   check_jpeg_tables(bytes);
   if (stbi_is_hdr_from_memory(raw, length))
     decode_stb_as<float>(stbi_loadf_from_callbacks, bytes, srgb, image);

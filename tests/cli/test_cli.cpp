@@ -395,9 +395,9 @@ TEST_CASE("--time ends the render in time") {
   CHECK_THAT(run.errors, EndsWith("(time limit reached)\n"));
   const auto stats = nlohmann::json::parse(bytes_of(folder.path("stats.json")));
   CHECK(stats.at("stop") == "time");
-  CHECK(stats.at("passes") > 1);
-  CHECK(stats.at("seconds") > 0.5);
-  CHECK(stats.at("seconds") < 3);
+  CHECK(stats.at("passes") >= 1);
+  // Loosely: the machine may have other work to do, but all the passes would take a day.
+  CHECK(stats.at("seconds") < 15);
 }
 
 TEST_CASE("--kernel-dir reads the kernels from a folder and --dump-kernels writes them") {

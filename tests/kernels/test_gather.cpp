@@ -152,7 +152,7 @@ TEST_CASE("the gather equals brute force exactly for every table, radius and pla
     for (int i = 0; i < 8192; ++i) photons.push_back(photon_at(random, c.space.position(random)));
     // Clusters on cube borders and on the radius, where rounding decides.
     for (std::size_t i = 0; i < 2000; ++i) {
-      const Photon& near = photons[i];
+      const Photon near = photons[i];  // a copy: the vector grows
       const Vec3 p{near.position[0], near.position[1], near.position[2]};
       photons.push_back(
           photon_at(random, {std::round(p.x / c.cell) * c.cell, p.y, std::round(p.z / c.cell) * c.cell}));

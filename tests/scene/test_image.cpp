@@ -105,9 +105,10 @@ TEST_CASE("JPEG, BMP, TGA and HDR are read, and refused where they end early") {
     CHECK(texel(image, 7, height - 2)[1] == Approx(top).margin(0.02));
     CHECK(texel(image, 7, 0)[2] == Approx(29 * top).margin(0.02));
     CHECK(texel(image, 7, 0)[3] == 1);
-    for (const double part : {0.9, 0.5, 0.05}) {
-      CAPTURE(part);
-      const std::string cut = folder.write(name, bytes.substr(0, std::size_t(double(bytes.size()) * part)));
+    // PNG and JPEG may lack some bytes of checksums and padding, as decoders go.
+    for (std::size_t size = 1; size + 20 < bytes.size(); size += 1 + bytes.size() / 150) {
+      CAPTURE(size);
+      const std::string cut = folder.write(name, bytes.substr(0, size));
       const std::string message = user_error_of([&] { read_image(cut, false); }, cut);
       CHECK(message.find(name + ": cannot be decoded: ") == 0);
       CHECK(message.find('\n') == message.npos);
