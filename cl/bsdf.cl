@@ -125,10 +125,11 @@ INLINE BsdfSample bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 di
 // What a photon's flux is multiplied by on arrival at a smooth-shaded surface: density estimation divides by
 // geometric area, while the BSDF takes its cosine with the shading normal (Veach 1997, 5.3). Bounded, since
 // the ratio has no bound at grazing incidence.
-INLINE real shading_normal_arrival(const Surface *surface, real3 direction, real3 n) {
-  real geometric = fabs(dot(direction, surface->geometric_normal));
-  real shading = fabs(dot(direction, n));
-  return fmin(shading / fmax(geometric, (real)1e-6f), (real)4);
+// Light from below the horizon of the shading normal is none, as for shadow rays.
+INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
+  real geometric = -dot(direction, surface->geometric_normal);
+  real shading = -dot(direction, surface->shading_normal) * (geometric < 0 ? -1 : 1);
+  return clamp(shading / fmax(fabs(geometric), (real)1e-6f), (real)0, (real)4);
 }
 
 // The same for departure of a photon in `direction` from a Lambert surface that was sampled about n.

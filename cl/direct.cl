@@ -20,8 +20,9 @@ static real3 direct_light(const Scene *scene, const Surface *surface, real3 arri
   if (geometry_occluded(&scene->geometry, shadow, light.distance - light.margin)) return (real3)(0, 0, 0);
   real weight = 1;
   if (weigh_bsdf) {
-    real bsdf_pdf = cosine * INV_PI;
-    weight = light.pdf * light.pdf / (light.pdf * light.pdf + bsdf_pdf * bsdf_pdf);
+    // As a ratio, since the square of a small far light's density overflows.
+    real ratio = cosine * INV_PI / light.pdf;
+    weight = 1 / (1 + ratio * ratio);
   }
   return reflectance * light.weight * (cosine * weight);
 }

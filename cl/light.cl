@@ -77,7 +77,8 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
       real2 d = triangle_uniform(u);
       point = a + d.x * b + d.y * c;
     }
-    *normal = normalize(cross(b, c));
+    // Scaled first: the product of long or short edges leaves the range of a float.
+    *normal = normalize(cross(b / max_component(fabs(b)), c / max_component(fabs(c))));
   }
   real3 size = fabs(a) + fabs(b) + fabs(c) + fabs(point);
   *error = GAMMA(8) * (max_component(size) + emitter->a.w);

@@ -15,7 +15,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   if (index >= params.pixel_count * params.visible_points) return;
   SCENE_INIT(params);
   uint pixel = params.first_pixel + index / params.visible_points, sample = index % params.visible_points;
-  RandomStream stream = {params.seed * 2u, params.pass, pixel * params.visible_points + sample};
+  RandomStream stream = {params.seed, params.pass, pixel * params.visible_points + sample};
 
   real4 film = random4(stream, DIM_FILM);
   real2 position = (real2)(pixel % params.width, pixel / params.width) +
@@ -40,7 +40,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
-      if (HAS(EFFECT_SHADOW_RAYS))
+      if (HAS(EFFECT_SHADOW_RAYS) && params.emitter_count > 0)
         radiance += direct_light(&scene, &surface, ray.direction, n, weight, random_at(stream, depth, DIM_LIGHT), false,
                                  &rays);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;

@@ -39,7 +39,8 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
     found += sum.count;
   }
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
-  film_add(film + index, (radiance + reflected * density) / params.visible_points, counters);
+  if (found > 0) radiance += reflected * density;
+  film_add(film + index, radiance / params.visible_points, counters);
   if (params.radius2 > 0) return;
   pixels[index] = sppm_update(pixel, found, params.alpha);
 }

@@ -23,7 +23,8 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
       real weight = 1;
       if (bsdf_pdf > 0) {
         real pdf = light_pdf(scene, ray.origin, ray.direction, hit, &surface, material);
-        weight = bsdf_pdf * bsdf_pdf / (bsdf_pdf * bsdf_pdf + pdf * pdf);
+        real ratio = pdf / bsdf_pdf;
+        weight = 1 / (1 + ratio * ratio);
       }
       radiance += throughput * emission * weight;
     }
@@ -52,16 +53,16 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
 }
 
 // Adds sample number params.pass, one a pixel of the chunk, to the film. Four consecutive samples stratify a
-// pixel 2 x 2.
+// pixel 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts nothing.
 kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count) return;
   SCENE_INIT(params);
   uint pixel = params.first_pixel + i;
-  RandomStream stream = {params.seed * 2u, params.pass, pixel};
+  RandomStream stream = {params.seed, params.pass, pixel};
   real4 numbers = random4(stream, DIM_FILM);
   real2 position =
-      (real2)(pixel % params.width, pixel / params.width) + camera_stratum(params.pass % 4u, 4u, numbers.xy);
+      (real2)(pixel % params.width, pixel / params.width) + camera_stratum((params.pass + (pixel * 0x9e3779b9u >> 30)) % 4u, 4u, numbers.xy);
   Ray ray = camera_ray(&params.camera, params.width, params.height, position, numbers.zw);
   uint rays = 0;
   real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays);

@@ -2,6 +2,9 @@
 #include "direct.cl"
 #include "grid.cl"
 
+// Sets the random numbers of photons apart from those of camera paths.
+#define PHOTON_SEED 0x9e3779b9u
+
 // Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
 INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   real units = flux * PHOTON_FLUX_UNIT + random;
@@ -16,7 +19,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   uint index = get_global_id(0);
   if (index >= params.photon_count) return;
   SCENE_INIT(params);
-  RandomStream stream = {params.seed * 2u + 1u, params.pass, index};
+  RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, index};
 
   real3 flux;
   Ray ray = photon_emit(&scene, stream, &flux);
@@ -31,9 +34,14 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
     real3 n = facing_normal(&surface, ray.direction);
     real4 random = random_at(stream, depth, DIM_BSDF);
 
+    real before = max_component(flux);
+
     if (bsdf.kind == MATERIAL_DIFFUSE) {
-      if (!(max_component(bsdf.color) > 0)) break;
-      flux *= shading_normal_arrival(&surface, ray.direction, n);
+      // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more.
+      // Only where all is black, as on most lamps, are they of no use.
+      global const Material *material = materials + surface.material;
+      if (material->color_texture == 0 && !(max_component(bsdf.color) > 0)) break;
+      flux *= shading_normal_arrival(&surface, ray.direction);
       // With shadow rays the light that arrives straight from an emitter is counted there.
       if (!(HAS(EFFECT_SHADOW_RAYS) && depth == 0)) {
         real4 dither = random_at(stream, depth, DIM_QUANTISE);
@@ -60,8 +68,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
 
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
     if (bsdf.kind == MATERIAL_DIFFUSE) next.weight *= shading_normal_departure(&surface, next.direction, n);
-    // Absorption by Russian roulette: survivors keep the largest channel of their flux.
-    real before = max_component(flux);
+    // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
     flux *= next.weight;
     real survival = fmin(max_component(flux) / before, (real)1);
     if (random.w >= survival) break;

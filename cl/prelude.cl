@@ -44,7 +44,6 @@ typedef float8 real8;
 #define GAMMA(n) ((n) * REAL_EPSILON / (1 - (n) * REAL_EPSILON))
 
 INLINE real max_component(real3 v) { return max(v.x, max(v.y, v.z)); }
-INLINE real luminance(real3 c) { return (real)0.2126 * c.x + (real)0.7152 * c.y + (real)0.0722 * c.z; }
 // Rows of an affine map applied to a point and to a direction.
 INLINE real3 transform_point(global const float4 *rows, real3 p) {
   real3 r0 = convert_real3(rows[0].xyz), r1 = convert_real3(rows[1].xyz), r2 = convert_real3(rows[2].xyz);

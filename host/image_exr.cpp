@@ -60,7 +60,7 @@ void decode_luminance_chroma(const std::string& bytes, std::vector<float>& rgba)
   MemoryIn stream(bytes);
   Imf::RgbaInputFile file(stream);
   const Imath::Box2i window = file.dataWindow();
-  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  const std::size_t width = static_cast<std::size_t>(window.max.x) - window.min.x + 1;
   std::vector<Imf::Rgba> pixels(rgba.size() / 4);
   const auto offset = -window.min.x - static_cast<std::ptrdiff_t>(width) * window.min.y;
   file.setFrameBuffer(pixels.data() + offset, 1, width);

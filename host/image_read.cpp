@@ -91,7 +91,7 @@ void check_jpeg_tables(const std::string& bytes) {
     while (byte(at) == 0xff) ++at;
     const unsigned marker = byte(at++);
     if (marker < 0xc0 || (marker >= 0xd0 && marker <= 0xd9)) continue;  // stuffing, restarts, start, end
-    const std::size_t end = at + 256 * byte(at) + byte(at + 1);
+    const std::size_t end = at + std::size_t{256} * byte(at) + byte(at + 1);
     for (std::size_t table = at + 2; marker == 0xc4 && table < end;) {
       unsigned codes = 0;
       for (std::size_t length = 1; length <= 16; ++length) codes += byte(table + length);

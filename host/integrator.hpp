@@ -28,6 +28,8 @@ class PassIntegrator {
 /// The counters of a device, which wrap at 2^32, as totals that do not.
 class CounterTotals {
  public:
+  /// Counts from this reading on.
+  void start_from(const Counters& now) { last_ = now; }
   /// Takes a fresh reading; at most 2^32 - 1 events may have happened since the last.
   void update(const Counters& now) {
     rays += static_cast<uint>(now.rays - last_.rays);

@@ -124,9 +124,10 @@ void JsonReader::check_keys(const std::vector<std::string>& keys,
     const std::string at =
         document_->place(member.value.source, member.line) + ": " + child(member.key, member.value).pointer();
     const std::string key = json_quote(member.key);
-    throw UserError(one_line(at + (contains(later, member.key)
-                                       ? ": key " + key + " is not supported yet; remove it"
-                                       : ": unknown key " + key + "; " + suggestion(member.key, keys))));
+    const bool is_later = contains(later, member.key);
+    std::string message = at + (is_later ? ": key " : ": unknown key ") + key;
+    message += is_later ? " is not supported yet; remove it" : "; " + suggestion(member.key, keys);
+    throw UserError(one_line(message));
   }
 }
 

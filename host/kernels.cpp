@@ -26,10 +26,12 @@ const std::map<std::string, unsigned> effects_read{
 };
 
 void dump(const std::string& folder, const std::string& pass, const std::string& source) {
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw UserError("--dump-kernels " + folder + ": cannot be made a folder: " + error.message());
   const auto file = std::filesystem::path(folder) / ("pass_" + pass + ".cl");
   std::ofstream out(file);
-  if (!(out << source)) throw UserError("--dump-kernels: cannot write " + file.string());
+  if (!(out << source).flush()) throw UserError("--dump-kernels: cannot write " + file.string());
 }
 
 }  // namespace

@@ -65,7 +65,10 @@ const auto is_override = [](const std::string& text) {
   return equals != std::string::npos && equals > 0;
 };
 const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
-const auto is_folder = [](const std::string& text) { return std::filesystem::is_directory(text); };
+const auto is_folder = [](const std::string& text) {
+  std::error_code unreadable;
+  return std::filesystem::is_directory(text, unreadable);
+};
 
 /// What CLI11 leaves as text.
 struct Texts {
@@ -245,6 +248,7 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   result.outputs = outputs;
   result.time_limit = options.time_limit;
   result.seed = options.seed;
+  result.threads = options.threads;
   result.kernel_dir = options.kernel_dir;
   result.dump_kernels = options.dump_kernels;
   return result;

@@ -39,7 +39,8 @@ Counters PhotonMap::trace(Params params) {
   std::uint64_t wanted = std::max<std::uint64_t>(capacity_, 2ull * params.photon_count);
   for (;;) {
     if (wanted > capacity_) {
-      if (wanted > 0xfffffff0u)
+      // Words of sorted photons are indexed by 32 bits.
+      if (wanted > 0xfffffff0u / PHOTON_WORDS)
         throw UserError(std::to_string(params.photon_count) +
                         " photons a pass are more than one pass can store; use fewer a pass and more passes");
       photons_ = {};

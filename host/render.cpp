@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "effects.hpp"
+#include "error.hpp"
 #include "path.hpp"
 #include "sppm.hpp"
 
@@ -30,7 +31,7 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
           {"photons", std::to_string(statistics.photons)},
           {"device", statistics.device},
           {"seconds", std::to_string(statistics.seconds)},
-          {"version", CAUSTICL_VERSION},
+          {"causticl_version", CAUSTICL_VERSION},
           {"non_finite", std::to_string(statistics.non_finite)},
           {"saturated", std::to_string(statistics.saturated)}};
 }
@@ -74,7 +75,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
 
   const Effects effects = find_effects(scene);
   const KernelOptions kernels{effect_bits(effects), options.kernel_dir, options.dump_kernels};
-  const DeviceScene device_scene = upload_scene(scene, device);
+  const DeviceScene device_scene = upload_scene(scene, device, options.threads);
   Film film(device, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;
   if (sppm) {
@@ -100,11 +101,14 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   const auto loop_start = Clock::now();
   double recent_pass = 0;  // the longer of the last two: the first compiles kernels
   double last_pass = 0;
+  double longest_write = 0;
   const auto write = [&](Picture picture) {
+    const auto write_start = Clock::now();
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
     for (const auto& file : options.outputs)
       write_picture(file, picture, metadata_of(scene, options, statistics));
+    longest_write = std::max(longest_write, seconds_since(write_start));
     return picture;
   };
 
@@ -128,12 +132,19 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
       statistics.stop = StopReason::interrupted;
       break;
     }
-    // The next pass must fit into what is left.
-    if (options.time_limit && elapsed + recent_pass > *options.time_limit) {
+    // The next pass and writing the picture must fit into what is left.
+    if (options.time_limit && elapsed + recent_pass + longest_write > *options.time_limit) {
       statistics.stop = StopReason::time;
       break;
     }
-    if (!options.outputs.empty() && checkpoints.due(pass + 1)) write(film.picture(statistics.passes));
+    if (!options.outputs.empty() && checkpoints.due(pass + 1)) {
+      try {
+        write(film.picture(statistics.passes));
+      } catch (const UserError& error) {
+        // A disk that is full now may have room at the end: the work so far is not thrown away.
+        if (notice) notice(std::string(error.what()) + " (will be tried again)");
+      }
+    }
   }
 
   const double loop_seconds = std::max(seconds_since(loop_start), 1e-9);

@@ -19,6 +19,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;  // files, by extension; rewritten at checkpoints
   std::optional<double> time_limit;  // seconds from the start of render_scene
   std::uint32_t seed = 1;
+  unsigned threads = 0;      // for the tree; 0: all of the machine
   std::string kernel_dir;    // --kernel-dir: read cl/ live; empty: the embedded sources
   std::string dump_kernels;  // --dump-kernels: folder that receives what was built; empty: none
 };

@@ -1,4 +1,5 @@
 // Files that a scene names: found beside it, read once.
+#include <algorithm>
 #include <filesystem>
 
 #include "error.hpp"
@@ -45,7 +46,17 @@ int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list
 
 int SceneLoader::image(const JsonReader& json, bool srgb) {
   const std::string file = resolve(json, scene.file);
-  return load_once(images, {file, srgb}, scene.images, json, [&] { return read_image(file, srgb); });
+  return load_once(images, {file, srgb}, scene.images, json, [&] {
+    Image image = read_image(file, srgb);
+    // Textures are reflectances, also where their format holds brighter values.
+    bool outside = false;
+    for (float& value : image.rgba) {
+      outside = outside || !(value >= 0 && value <= 1);
+      value = value >= 0 ? std::min(value, 1.0f) : 0.0f;
+    }
+    if (outside) notice(json, "texels below 0 or above 1 are taken as 0 and 1");
+    return image;
+  });
 }
 
 int SceneLoader::mesh(const JsonReader& json) {

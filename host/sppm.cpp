@@ -23,7 +23,8 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
       gather_photons_(gather_program_, "gather_photons"),
       count_around_(gather_program_, "count_around"),
       start_pixels_(gather_program_, "start_pixels"),
-      first_argument_(set_scene_arguments(trace_camera_, device_scene)) {
+      first_argument_(set_scene_arguments(trace_camera_, device_scene)),
+      smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.photon_count = static_cast<uint>(spec_.photons);
@@ -38,6 +39,7 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   trace_camera_.setArg(first_argument_ + 1, counters_);
 
   first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(device_scene.extent);
+  totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
   set_arguments(start_pixels_, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
@@ -57,7 +59,8 @@ double Sppm::choose_first_radius(double extent) {
   params.pixel_count = static_cast<uint>(std::min<std::size_t>(
       static_cast<std::size_t>(params.width) * params.height, chunk_pixels_ * params_.visible_points));
   photon_map_.trace(params);
-  double radius = 0.01 * extent;
+  const double fallback = 0.01 * extent;
+  double radius = fallback;
   if (photon_map_.stored() == 0) return radius;
   trace_camera_.setArg(first_argument_ + 2, params);
   device_.launch(trace_camera_, params.pixel_count);
@@ -72,11 +75,14 @@ double Sppm::choose_first_radius(double extent) {
     auto found = device_.download<cl_uint>(counts, params.pixel_count);
     std::erase(found, 0xffffffffu);  // COUNT_NOTHING of cl/pass_gather.cl
     if (found.empty()) return radius;
+    // Photons may light a small part of the picture alone, as caustics on a floor: that part decides.
+    const bool dark = std::count(found.begin(), found.end(), 0u) == static_cast<std::ptrdiff_t>(found.size());
+    if (!dark) std::erase(found, 0u);
     const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
     std::nth_element(found.begin(), middle, found.end());
     const double ratio = std::clamp(std::sqrt(wanted / std::max<double>(*middle, 0.5)), 0.25, 4.0);
     if (ratio > 0.9 && ratio < 1.1) break;
-    if (radius * ratio > extent) break;  // a scene in the dark: hardly a photon anywhere
+    if (radius * ratio > extent) return fallback;  // hardly a photon anywhere
     radius *= ratio;
   }
   return radius;
@@ -89,6 +95,8 @@ void Sppm::advance_schedule(std::uint32_t pass) {
     schedule_radius2_ *= spec_.radius_decay * spec_.radius_decay;
   else
     schedule_radius2_ *= (pass + 1 + spec_.alpha) / (pass + 2.0);
+  // A radius that vanishes beside the scene finds nothing, and its square would underflow.
+  schedule_radius2_ = std::max(schedule_radius2_, smallest_radius2_);
 }
 
 void Sppm::enqueue_pass(std::uint32_t pass) {

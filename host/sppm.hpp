@@ -37,6 +37,7 @@ class Sppm : public PassIntegrator {
   CounterTotals totals_;
   std::uint64_t emitted_ = 0;
   double first_radius_ = 0;
+  double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
   double choose_first_radius(double extent);

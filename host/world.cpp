@@ -56,7 +56,10 @@ class WorldBuilder {
   World world_;
 
   const MaterialSpec& material(const Object& object) const { return scene_.materials[object.material]; }
-  bool emissive(const Object& object) const { return max_component(material(object).emission) > 0; }
+  // As a float, which is what the kernels see: the smallest doubles are none.
+  bool emissive(const Object& object) const {
+    return static_cast<float>(max_component(material(object).emission)) > 0;
+  }
 
   Emitter emitter(const Object& object, uint type, double area) const {
     Emitter result{};
@@ -106,7 +109,11 @@ class WorldBuilder {
     const auto corner = [&](double x, double y) {
       return Corner{object.transform.point({x, y, 0}), {}, x + 0.5, y + 0.5};
     };
-    add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
+    // Counter-clockwise seen from local +z, also where the transform mirrors.
+    if (object.transform.determinant() < 0)
+      add_quad(object, corner(-.5, -.5), corner(-.5, .5), corner(.5, .5), corner(.5, -.5));
+    else
+      add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
   }
 
   /// Six faces, wound counter-clockwise seen from outside also where the transform mirrors.
@@ -216,9 +223,11 @@ class WorldBuilder {
         bounds = transformed_bounds(local.low, local.high, transform);
         if (emissive(object)) {
           const auto table = curve_area_table(object.points, EMITTER_AREA_STEPS);
-          shape.area_table = static_cast<uint>(world_.curves.size()) + 2;  // past the number of steps and the area
+          shape.area_table =
+              static_cast<uint>(world_.curves.size()) + 2;  // past the number of steps and the area
           world_.curves.insert(world_.curves.end(), table.begin(), table.end());
-          // The world's area where the scale is uniform; elsewhere kernels only need it to be the same throughout.
+          // The world's area where the scale is uniform; elsewhere kernels only need it to be the same
+          // throughout.
           area = table[1] * std::pow(std::fabs(transform.determinant()), 2.0 / 3.0);
           shape.area = static_cast<float>(area);
         }

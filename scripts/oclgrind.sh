@@ -13,14 +13,16 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failed=0
 for scene in "${scenes[@]}"; do
-  for integrator in sppm pt; do
+  for options in "--integrator sppm" "--integrator pt" \
+    "--integrator sppm -D renderer.direct_light=photons -D renderer.schedule=global"; do
+    # shellcheck disable=SC2086 # words
     # Optimised kernels make Oclgrind 21.10 loop for ever, and it knows no inlined calls.
     if messages=$(oclgrind --data-races --build-options "-cl-opt-disable -DCAUSTICL_NO_INLINE" \
-      "$root/build/causticl" render "$scene" --integrator $integrator --size 5x4 --photons 100 --passes 2 --samples 2 \
+      "$root/build/causticl" render "$scene" $options --size 5x4 --photons 100 --passes 2 --samples 2 \
       --quiet -o "$folder/picture.pfm" 2>&1) && [ -z "$messages" ]; then
-      echo "clean: $(basename "$scene") $integrator"
+      echo "clean: $(basename "$scene") $options"
     else
-      echo "FAILED: $(basename "$scene") $integrator"
+      echo "FAILED: $(basename "$scene") $options"
       head -40 <<<"$messages"
       failed=$((failed + 1))
     fi

@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
 "$root/scripts/build.sh"
-if [ $# -eq 0 ] || [[ $1 == -* ]]; then
+if [[ $# -eq 0 || ($1 == -* && " $* " != *.json\ *) ]]; then
   output=(-o "$root/out/glass_caustic.png")
   for option in "$@"; do
     [[ $option == -o* || $option == --output* ]] && output=()

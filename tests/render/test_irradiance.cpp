@@ -53,3 +53,57 @@ TEST_CASE("a ceiling under a spherical lamp has the irradiance of the closed for
   // Some 10^7 photons, and a kernel that blurs over 0.7 of the 11.6 units between ceiling and lamp.
   CHECK(mean_luminance(render_with(scene, Integrator::sppm, 60).picture) == Approx(exact).epsilon(1e-2));
 }
+
+namespace {
+
+// A floor of small black and white squares under a lamp on one side, straight from above.
+const char* const checkered_floor = R"({
+  "width": 16, "height": 16, "max_depth": 1,
+  "renderer": {"type": "sppm", "view_point_sample": 4, "photon_sample": 200000, "radius": 0.2, "direct_light": "DIRECT"},
+  "camera": {"position": [0, 6, 0.01], "target": [0, 0, 0], "fov": 20},
+  "materials": {
+    "floor": {"type": "diffuse", "color": {"type": "checker", "a": [0, 0, 0], "b": [0.8, 0.8, 0.8], "scale": [80, 80]}},
+    "lamp": {"type": "diffuse", "color": [0, 0, 0], "emission": [10, 10, 10]}},
+  "objects": [
+    {"type": "rectangle", "material": "floor",
+     "transform": [{"type": "scale", "x": 8, "y": 8, "z": 1}, {"type": "rotate", "axis": "x", "degree": -90}]},
+    {"type": "rectangle", "material": "lamp",
+     "transform": [{"type": "scale", "x": MIRROR, "y": 1, "z": 1}, {"type": "rotate", "axis": "x", "degree": 90},
+                   {"type": "shift", "x": 0, "y": 3, "z": 3}]}]
+})";
+
+Scene checkered(const std::string& direct_light, const std::string& mirror = "1") {
+  std::string text = checkered_floor;
+  text.replace(text.find("DIRECT"), 6, direct_light);
+  text.replace(text.find("MIRROR"), 6, mirror);
+  return scene_from_text(text);
+}
+
+}  // namespace
+
+TEST_CASE("photons on black texels light the white ones beside them, with every schedule of the radius") {
+  const double expected = mean_luminance(render_with(checkered("shadow_rays"), Integrator::sppm, 40).picture);
+  REQUIRE(expected > 0.01);
+  for (const Schedule schedule : {Schedule::pixel, Schedule::global, Schedule::geometric}) {
+    Scene scene = checkered("photons");
+    scene.renderer.schedule = schedule;
+    INFO("schedule " << static_cast<int>(schedule));
+    CHECK(mean_luminance(render_with(scene, Integrator::sppm, 40).picture) == Approx(expected).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a radius that a schedule shrinks to nothing leaves a finite picture") {
+  Scene scene = checkered("photons");
+  scene.renderer.schedule = Schedule::geometric;
+  scene.renderer.radius_decay = 1e-3;
+  scene.renderer.photons = 1000;
+  const auto result = render_with(scene, Integrator::sppm, 30);
+  CHECK(result.statistics.non_finite == 0);
+}
+
+TEST_CASE("a mirrored rectangle still emits towards its local +z") {
+  const double expected = mean_luminance(render_with(checkered("shadow_rays"), Integrator::sppm, 20).picture);
+  for (const Integrator integrator : {Integrator::sppm, Integrator::pt})
+    CHECK(mean_luminance(render_with(checkered("shadow_rays", "-1"), integrator, 80).picture) ==
+          Approx(expected).epsilon(0.01));
+}
