@@ -12,7 +12,6 @@ namespace {
 
 using namespace kd;
 
-constexpr uint merged_leaf_limit = 16;  // primitives of a leaf that the collapse may make of a subtree
 constexpr unsigned width = 8;
 
 // Which binary nodes become children of one wide node, by dynamic programming over the cost of the surface
@@ -35,7 +34,7 @@ void choose_collapse(BinaryNode& node) {
     return best;
   };
   const float inner = area + distribute(width);
-  node.as_leaf = node.count <= merged_leaf_limit && leaf <= inner;
+  node.as_leaf = node.count <= leaf_limit && leaf <= inner;
   node.cost[0] = node.as_leaf ? leaf : inner;
   for (unsigned children = 2; children < width; ++children) {
     node.cost[children - 1] = distribute(children);

@@ -9,7 +9,6 @@ namespace {
 using References = std::vector<Reference>;
 
 constexpr std::size_t leaf_size = 8;
-constexpr std::size_t leaf_limit = 16;   // above, a node is cut even where the heuristic sees no gain at once
 constexpr std::size_t task_size = 4096;  // smaller subtrees are built in one piece
 constexpr unsigned stall_limit = 3;      // cuts in a row without gain
 

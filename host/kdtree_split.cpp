@@ -8,8 +8,10 @@ namespace {
 constexpr int bins = 32;
 constexpr std::size_t exact_limit = 24;  // up to here every bound of a reference is a candidate
 
-// The expected tests of n primitives. A count far above a leaf's is taken as it is: blocks will not be full.
-float tests(std::uint64_t n) { return block_cost * (n <= 16 ? blocks_of(n) : static_cast<float>(n) / 6); }
+// The expected tests of n primitives: whole blocks where they may become one leaf.
+float tests(std::uint64_t n) {
+  return block_cost * (n <= leaf_limit ? blocks_of(n) : static_cast<float>(n) / block_lanes);
+}
 
 // Takes the candidate if it is cheaper: `left` and `right` hold all boxes that reach over to their side.
 void consider(Split& best, int axis, float position, bool planar_left, Box left, Box right,

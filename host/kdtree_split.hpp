@@ -8,10 +8,14 @@
 
 namespace causticl::kd {
 
-/// Costs of the surface area heuristic, in units of one test of a wide node.
-constexpr float block_cost = 1.2f;      // eight triangles
+/// Costs of the surface area heuristic, in units of one test of a wide node. A block costs as much to test as
+/// a node; the lower figure counts in that cutting further repeats triangles: measured on 100,000 triangles,
+/// 0.45 gives 107 bytes a triangle and 5.7 tests a ray, 1.2 gives 144 bytes and 5.4 tests, and the rays are
+/// no faster.
+constexpr float block_cost = 0.45f;     // eight triangles
 constexpr float binary_cost = 1.f / 3;  // a binary split: three levels make one wide node
 constexpr std::uint64_t block_lanes = 8;
+constexpr std::size_t leaf_limit = 24;  // primitives; above, a node is cut even where no gain shows at once
 
 inline float blocks_of(std::uint64_t count) {
   return static_cast<float>((count + block_lanes - 1) / block_lanes);
