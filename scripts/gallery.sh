@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # Usage: scripts/gallery.sh [SCENE...]
-# Renders the pictures that README shows into scenes/gallery/: the glass caustic at 800 x 600, all other SCENEs
-# (all that are shipped, where none is named) at the size of a thumbnail.
+# Renders the pictures that README shows into scenes/gallery/: the glass caustic at 800 x 600 with 96 passes, all
+# other SCENEs (all but the furnace, where none is named) at the size of a thumbnail with 48.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
 "$root/scripts/build.sh"
 scenes=("$@")
-[ $# -gt 0 ] || scenes=("$root"/scenes/*.json)
+[ $# -gt 0 ] || scenes=("$root"/scenes/[1-7]*.json "$root"/scenes/{cornell_box,analytic_sphere,glass_caustic}.json)
 mkdir -p "$root/scenes/gallery"
 for scene in "${scenes[@]}"; do
   name=$(basename "$scene" .json)
-  size=400x300
+  size=400x300 passes=48
   [ "$name" = cornell_box ] && size=300x300
-  [ "$name" = glass_caustic ] && size=800x600
-  "$root/build/causticl" render "$scene" --size $size --passes 96 --quiet -o "$root/scenes/gallery/$name.png"
+  [ "$name" = glass_caustic ] && size=800x600 passes=96
+  "$root/build/causticl" render "$scene" --size $size --passes $passes --quiet -o "$root/scenes/gallery/$name.png"
   echo "scenes/gallery/$name.png"
 done
