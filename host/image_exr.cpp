@@ -60,10 +60,10 @@ void decode_luminance_chroma(const std::string& bytes, std::vector<float>& rgba)
   MemoryIn stream(bytes);
   Imf::RgbaInputFile file(stream);
   const Imath::Box2i window = file.dataWindow();
-  const std::size_t width = static_cast<std::size_t>(window.max.x) - window.min.x + 1;
+  const std::ptrdiff_t width = std::ptrdiff_t{window.max.x} - window.min.x + 1;
   std::vector<Imf::Rgba> pixels(rgba.size() / 4);
-  const auto offset = -window.min.x - static_cast<std::ptrdiff_t>(width) * window.min.y;
-  file.setFrameBuffer(pixels.data() + offset, 1, width);
+  const std::ptrdiff_t offset = -window.min.x - width * window.min.y;
+  file.setFrameBuffer(pixels.data() + offset, 1, static_cast<std::size_t>(width));
   file.readPixels(window.min.y, window.max.y);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     rgba[4 * i] = pixels[i].r;

@@ -83,17 +83,17 @@ struct StbSource {
 /// Throws for a JPEG with a Huffman table of more than 256 codes: stb_image before 2.28 writes past its own
 /// tables there. Walks the markers as the decoder does, entropy-coded data between them included.
 void check_jpeg_tables(const std::string& bytes) {
-  const auto byte = [&](std::size_t i) {
+  const auto byte = [&](std::size_t i) -> std::size_t {
     return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
   };
   if (byte(0) != 0xff || byte(1) != 0xd8) return;
   for (std::size_t at = bytes.find('\xff', 2); at < bytes.size(); at = bytes.find('\xff', at)) {
     while (byte(at) == 0xff) ++at;
-    const unsigned marker = byte(at++);
+    const std::size_t marker = byte(at++);
     if (marker < 0xc0 || (marker >= 0xd0 && marker <= 0xd9)) continue;  // stuffing, restarts, start, end
     const std::size_t end = at + std::size_t{256} * byte(at) + byte(at + 1);
     for (std::size_t table = at + 2; marker == 0xc4 && table < end;) {
-      unsigned codes = 0;
+      std::size_t codes = 0;
       for (std::size_t length = 1; length <= 16; ++length) codes += byte(table + length);
       if (codes > 256) throw std::runtime_error("a Huffman table has more than 256 codes");
       table += 17 + codes;

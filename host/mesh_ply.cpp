@@ -130,7 +130,8 @@ class PlyReader {
       fail("list " + quoted(property.name) + " has " + shortest(count) + " entries");
     const std::size_t smallest = format_ == Format::ascii ? 1 : size_of(property.type);
     const std::uint64_t room = format_ == Format::ascii ? line_.size() : input_.remaining();
-    if (count > static_cast<double>(room / smallest))
+    const std::uint64_t most = room / smallest;
+    if (count > static_cast<double>(most))
       fail("list " + quoted(property.name) + " has " + shortest(count) +
            " entries, more than the rest of the file holds");
     return static_cast<std::uint64_t>(count);

@@ -1,3 +1,4 @@
+#include <ImfRgbaFile.h>
 #include <stb/stb_image_write.h>
 #include <sys/resource.h>
 
@@ -187,6 +188,33 @@ TEST_CASE("EXR keeps every bit and carries its metadata") {
   const Image image = read_image(file, true);
   CHECK(texel(image, 0, 0) == std::vector<float>{picture.rgb[9], picture.rgb[10], picture.rgb[11], 1});
   CHECK(has_no_temporary(folder));
+}
+
+TEST_CASE("EXR of luminance and chroma, and of luminance alone") {
+  const TemporaryFolder folder;
+  const std::vector<Imf::Rgba> pixels(8 * 4, Imf::Rgba(0.5f, 0.25f, 0.125f, 1.0f));
+  for (const auto channels : {Imf::WRITE_YC, Imf::WRITE_Y}) {
+    const std::string file = folder.path("a.exr");
+    {
+      // The window lies off the origin.
+      const Imath::Box2i window({-2, 6}, {5, 9});
+      Imf::RgbaOutputFile out(file.c_str(), Imf::Header(window, window), channels);
+      out.setFrameBuffer(pixels.data() + 2 - 8 * 6, 1, 8);
+      out.writePixels(4);
+    }
+    const Image image = read_image(file, false);
+    REQUIRE(image.width == 8);
+    REQUIRE(image.height == 4);
+    const auto color = texel(image, 7, 3);
+    if (channels == Imf::WRITE_YC) {
+      CHECK(color[0] == Approx(0.5).epsilon(0.01));
+      CHECK(color[2] == Approx(0.125).epsilon(0.01));
+    } else {
+      CHECK(color[0] == Approx(0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125).epsilon(0.01));
+      CHECK(color[2] == color[0]);
+    }
+    CHECK(color[3] == 1);
+  }
 }
 
 TEST_CASE("PFM keeps every bit; both byte orders and grey are read") {
