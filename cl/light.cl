@@ -119,10 +119,11 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
   if (!(distance2 > 0) || !(area_pdf > 0)) return sample;
   sample.distance = sqrt(distance2);
   sample.direction = to_light / sample.distance;
-  sample.margin = (real)1e-5f * sample.distance + 4 * error;
   real cosine = -dot(sample.direction, normal);
   if (emitter->two_sided) cosine = fabs(cosine);
   if (!(cosine > 0)) return sample;
+  // An error of the surface's place moves the hit by 1 / cosine times as much.
+  sample.margin = (real)1e-5f * sample.distance + fmin(4 * error / cosine, (real)0.5f * sample.distance);
   sample.pdf = emitter->probability * area_pdf * distance2 / cosine;
   sample.weight = radiance / sample.pdf;
   return sample;
