@@ -122,6 +122,20 @@ INLINE BsdfSample bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 di
   return diffuse_sample(bsdf, surface, direction, n, random);
 }
 
+// Camera paths of more hits than this may end by Russian roulette.
+#define ROULETTE_DEPTH 5u
+
+// Whether a camera path goes on after hit number `depth`; a survivor of Russian roulette carries what the others
+// would have carried.
+INLINE bool path_survives(real3 *throughput, uint depth, real random) {
+  if (depth >= ROULETTE_DEPTH) {
+    real survival = fmin(max_component(*throughput), (real)1);
+    if (random >= survival) return false;
+    *throughput /= survival;
+  }
+  return max_component(*throughput) > 0;
+}
+
 // What a photon's flux is multiplied by on arrival at a smooth-shaded surface: density estimation divides by
 // geometric area, while the BSDF takes its cosine with the shading normal (Veach 1997, 5.3). Bounded, since
 // the ratio has no bound at grazing incidence.

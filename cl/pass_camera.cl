@@ -3,9 +3,6 @@
 #include "direct.cl"
 #include "grid.cl"
 
-// Paths longer than this many hits may end by Russian roulette.
-#define ROULETTE_DEPTH 5u
-
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons.
@@ -53,12 +50,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
     real4 random = random_at(stream, depth, DIM_BSDF);
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
-    if (depth >= ROULETTE_DEPTH) {
-      real survival = fmin(max_component(throughput), (real)1);
-      if (random.w >= survival) break;
-      throughput /= survival;
-    }
-    if (!(max_component(throughput) > 0)) break;
+    if (!path_survives(&throughput, depth, random.w)) break;
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }

@@ -3,9 +3,6 @@
 #include "direct.cl"
 #include "film.cl"
 
-// Paths longer than this many hits may end by Russian roulette.
-#define ROULETTE_DEPTH 5u
-
 // Radiance along one camera path. Paths scatter at most params.max_depth times.
 static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays) {
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
@@ -39,12 +36,7 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
     real4 random = random_at(stream, depth, DIM_BSDF);
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
-    if (depth >= ROULETTE_DEPTH) {
-      real survival = fmin(max_component(throughput), (real)1);
-      if (random.w >= survival) break;
-      throughput /= survival;
-    }
-    if (!(max_component(throughput) > 0)) break;
+    if (!path_survives(&throughput, depth, random.w)) break;
     bsdf_pdf = next.pdf;
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
