@@ -8,6 +8,7 @@
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "stability_checks.hpp"
 
 namespace {
 
@@ -38,6 +39,21 @@ int render(const Options& options) {
   return result.statistics.stop == StopReason::interrupted ? interrupted : done;
 }
 
+int selftest(const Options& options) {
+  if (!options.selftest_json.empty()) check_writable(options.selftest_json);
+  const DeviceInfo device_info = find_device(options.device);
+  Device device(device_info, options.threads);
+  std::fputs(selftest_heading(device_info, options.selftest).c_str(), stdout);
+  const auto rows = run_selftest(device, stability_checks(), options.selftest, [](const SelftestRow& row) {
+    std::fputs(selftest_line(row).c_str(), stdout);
+    std::fflush(stdout);
+  });
+  std::fputs(selftest_verdict(rows, options.selftest).c_str(), stdout);
+  if (!options.selftest_json.empty())
+    write_file(options.selftest_json, selftest_json(device_info, rows, options.selftest));
+  return selftest_passed(rows) ? done : fault_of_device;
+}
+
 int print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return done;
@@ -51,6 +67,8 @@ int run(const Options& options) {
       return print(device_list(list_devices()));
     case Options::Command::info:
       return print(scene_summary(load_scene(options.scene, options.scene_options)));
+    case Options::Command::selftest:
+      return selftest(options);
     case Options::Command::print:
       break;
   }

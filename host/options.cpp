@@ -120,7 +120,7 @@ void add_output_options(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
-/// What it runs on and what it reports.
+/// What it runs on.
 void add_device_options(CLI::App& app, Options& options) {
   app.add_option("--device", options.device,
                  "index, cpu, gpu or part of a name (see `causticl devices`);\n"
@@ -132,6 +132,10 @@ void add_device_options(CLI::App& app, Options& options) {
   app.add_option("--kernel-dir", options.kernel_dir, "read the kernels from here, not from the binary")
       ->check(expect("an existing folder", is_folder))
       ->type_name("DIR");
+}
+
+/// What it reports.
+void add_report_options(CLI::App& app, Options& options) {
   app.add_option("--dump-kernels", options.dump_kernels, "write the kernels here as they were built")
       ->type_name("DIR");
   app.add_flag("--quiet", options.quiet, "print nothing but errors (and what --stats asks for)")
@@ -139,6 +143,33 @@ void add_device_options(CLI::App& app, Options& options) {
   app.add_flag("--stats", options.stats, "print a table of times, counts and memory at the end")
       ->disable_flag_override();
   app.add_option("--stats-json", options.stats_json, "write the same as one JSON object")->type_name("FILE");
+}
+
+/// Which checks run, on what.
+void add_selftest_options(CLI::App& app, Options& options) {
+  SelftestOptions& selftest = options.selftest;
+  const auto effort = [&](SelftestOptions::Effort value) {
+    return [&selftest, value] { selftest.effort = value; };
+  };
+  auto* quick = app.add_flag_callback("--quick", effort(SelftestOptions::Effort::quick),
+                                      "under 30 s; default: 10^6 inputs a check");
+  app.add_flag_callback("--full", effort(SelftestOptions::Effort::full),
+                        "10^8 inputs a check: an hour or more")
+      ->excludes(quick);
+  app.add_option("--inputs", selftest.inputs, "inputs a check")
+      ->check(whole_number(1, 1000000000000))
+      ->type_name("N");
+  app.add_option("--case", selftest.checks,
+                 "only these checks: the number of a hard case, or part\n"
+                 "of a check's name; may be repeated")
+      ->type_name("SPEC")
+      ->allow_extra_args(false);
+  app.add_option("--replay", selftest.replay, "the one input of a check that failed, as it was printed")
+      ->type_name("WORDS");
+  app.add_option("--json", options.selftest_json, "write the table as one JSON object")->type_name("FILE");
+  app.add_option("--seed", selftest.seed, "of the random inputs; 1 by default")
+      ->check(whole_number(0, 4294967295))
+      ->type_name("N");
 }
 
 /// CLI11's own wording where it is clear, ours where it is not.
@@ -149,7 +180,7 @@ std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
   const std::string option = text.substr(0, text.find(':'));
   if (commands.empty())
     text = (extras.empty() ? "no command given" : "unknown command or option " + extras.front()) +
-           "; expected render, devices or info";
+           "; expected render, devices, info or selftest";
   else if (dynamic_cast<const CLI::ExtrasError*>(&error))
     text = "unknown option or argument " + (extras.empty() ? text : extras.front());
   else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
@@ -174,12 +205,19 @@ Options parse_options(int argc, const char* const* argv) {
   add_scene_options(render, options, texts);
   add_output_options(render, options);
   add_device_options(render, options);
+  add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
                 exit_codes);
   CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
   add_scene_options(info, options, texts);
+  CLI::App& selftest = *app.add_subcommand("selftest", "Check the numerics of the kernels on this device");
+  add_selftest_options(selftest, options);
+  add_device_options(selftest, options);
+  selftest.footer(
+      "The first thing to run when a picture looks wrong. Exit codes: 0 all checks passed, 2 the command\n"
+      "line is at fault, 3 a check failed.");
 
   try {
     app.parse(argc, argv);
@@ -195,7 +233,10 @@ Options parse_options(int argc, const char* const* argv) {
 
   options.command = render.parsed()    ? Options::Command::render
                     : devices.parsed() ? Options::Command::devices
-                                       : Options::Command::info;
+                    : info.parsed()    ? Options::Command::info
+                                       : Options::Command::selftest;
+  options.selftest.threads = options.threads;
+  options.selftest.kernel_dir = options.kernel_dir;
   if (!texts.integrator.empty())
     options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);

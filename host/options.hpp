@@ -9,11 +9,12 @@
 #include "device.hpp"
 #include "render.hpp"
 #include "scene.hpp"
+#include "selftest.hpp"
 
 namespace causticl {
 
 struct Options {
-  enum class Command { render, devices, info, print };
+  enum class Command { render, devices, info, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
@@ -30,6 +31,9 @@ struct Options {
   std::string kernel_dir, dump_kernels;
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none
+
+  SelftestOptions selftest;
+  std::string selftest_json;  // file; empty: none
 };
 
 /// Reads the command line. Throws UserError, of one line, for whatever is not understood.

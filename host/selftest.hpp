@@ -1,0 +1,46 @@
+// `causticl selftest`: the stability checks on the user's device, as a table and as JSON.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "selftest_check.hpp"
+
+namespace causticl {
+
+/// What to run.
+struct SelftestOptions {
+  enum class Effort { quick, normal, full };  // about 10^5, 10^6 and 10^8 inputs a check
+  Effort effort = Effort::normal;
+  std::uint64_t inputs = 0;         // a check; 0: what `effort` says
+  std::vector<std::string> checks;  // numbers of hard cases, or parts of checks' names; empty: all
+  std::string replay;               // the words of one input, for one check; empty: random inputs
+  std::uint32_t seed = 1;
+  unsigned threads = 0;
+  std::string kernel_dir;
+};
+
+struct SelftestRow {
+  Check check;
+  CheckResult result;
+};
+
+/// Runs those of the checks that are wanted, in order, and hands each row to `report` when it is done. Throws
+/// UserError where `checks` or `replay` names nothing.
+std::vector<SelftestRow> run_selftest(Device& device, std::vector<Check> checks,
+                                      const SelftestOptions& options,
+                                      const std::function<void(const SelftestRow&)>& report = {});
+
+/// The head of the table, one row of it, and the lines below it: examples of failures, and the verdict.
+std::string selftest_heading(const DeviceInfo& device, const SelftestOptions& options);
+std::string selftest_line(const SelftestRow& row);
+std::string selftest_verdict(const std::vector<SelftestRow>& rows, const SelftestOptions& options);
+
+/// The same as one object: device, driver, seed, seconds, passed, and checks with all their numbers.
+std::string selftest_json(const DeviceInfo& device, const std::vector<SelftestRow>& rows,
+                          const SelftestOptions& options);
+
+bool selftest_passed(const std::vector<SelftestRow>& rows);
+
+}  // namespace causticl
