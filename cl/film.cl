@@ -13,10 +13,11 @@ INLINE void sum_add(float *hi, float *lo, float x) {
   *lo = tail - (*hi - s);
 }
 
-// Adds one radiance estimate to a pixel. One that is not finite is left out and counted.
+// Adds one radiance estimate to a pixel. One that is not finite is left out of the mean, and counted.
 INLINE void film_add(global FilmPixel *pixel, real3 radiance, volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
     atomic_inc(&counters->non_finite);
+    ++pixel->left_out;
     return;
   }
   float value[3] = {(float)radiance.x, (float)radiance.y, (float)radiance.z};

@@ -29,13 +29,13 @@ INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
   return found;
 }
 
-// Whether anything is met for 0 < t < t_max.
-INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max) {
+// Whether anything is met for 0 < t < t_max. Adds to *faults.
+INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *faults) {
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i)
-      if (shape_occluded(g->shapes + i, g->curves, ray, t_max)) return true;
+      if (shape_occluded(g->shapes + i, g->curves, ray, t_max, faults)) return true;
   return HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) &&
-         kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max);
+         kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max, faults);
 }
 
 // The surface at a hit that geometry_closest() has found along `ray`.

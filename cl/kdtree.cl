@@ -14,7 +14,7 @@
 #include "effects.h"
 #include "triangle.cl"
 
-// More node tests than any ray can need: only a device that computes wrongly gets here.
+// More node tests than any ray can need: only a device that computes wrongly gets there, and then it must not hang.
 #define KD_STEP_LIMIT (1u << 24)
 
 #define UNIT 5.9604645e-8f  // roundoff of float
@@ -120,7 +120,8 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
 }
 
 INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
-                          uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, real t_max) {
+                          uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, real t_max,
+                          uint *faults) {
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count; ++i) {
     real8 t, weight_1, weight_2;
@@ -128,7 +129,7 @@ INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
       for (uint met = block_shapes(blocks + i, slab, t_max); met != 0; met &= met - 1u) {
         uint index = blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE;
-        if (shape_occluded(shapes + index, curves, ray, t_max)) return true;
+        if (shape_occluded(shapes + index, curves, ray, t_max, faults)) return true;
       }
     }
   }
@@ -222,13 +223,14 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
       }
     }
   }
+  hit->faults |= FAULT_TRAVERSAL_BOUND;
   return found;
 }
 
-// Whether anything in the tree is met for 0 < t < t_max. The order does not matter here, so the trail holds the
+// Whether anything in the tree is met for 0 < t < t_max; adds to *faults. The order does not matter here, so the trail holds the
 // children left to visit, one bit each.
 INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                            global const float *curves, Ray ray, real t_max) {
+                            global const float *curves, Ray ray, real t_max, uint *faults) {
   if (nodes->child[0] == 0) return false;
   ShearedRay sheared = sheared_ray(ray);
   SlabRay slab = slab_ray(ray, nodes);
@@ -250,7 +252,8 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
           trail_low = (trail_low << 8) | left;
           break;
         }
-        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, t_max))
+        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, t_max,
+                          faults))
           return true;
       } else {
         if (index == 0) return false;
@@ -261,5 +264,6 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
       }
     }
   }
-  return false;
+  *faults |= FAULT_TRAVERSAL_BOUND;
+  return true;
 }

@@ -23,9 +23,11 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   uint rays = 0;
   for (uint depth = 0; depth <= params.max_depth; ++depth) {
-    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    Hit hit = hit_none(INFINITY);
     ++rays;
-    if (!geometry_closest(&scene.geometry, ray, &hit)) break;
+    bool met = geometry_closest(&scene.geometry, ray, &hit);
+    count_faults(hit.faults, counters);
+    if (!met) break;
     Surface surface;
     geometry_surface(&scene.geometry, ray, hit, &surface);
     global const Material *material = materials + surface.material;
@@ -33,13 +35,14 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
     if (depth == params.max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, textures, texels, surface.uv);
+    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     if (bsdf.kind == MATERIAL_DIFFUSE) {
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
       if (HAS(EFFECT_SHADOW_RAYS) && params.emitter_count > 0)
         radiance += direct_light(&scene, &surface, ray.direction, n, weight, random_at(stream, depth, DIM_LIGHT), false,
-                                 &rays);
+                                 &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
       point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
       vstore3(convert_float3(surface.position), 0, point.position);

@@ -4,13 +4,16 @@
 #include "film.cl"
 
 // Radiance along one camera path. Paths scatter at most params.max_depth times.
-static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays) {
+static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays,
+                           volatile global Counters *counters) {
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
   for (uint depth = 0; depth <= max_depth; ++depth) {
-    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    Hit hit = hit_none(INFINITY);
     ++*rays;
-    if (!geometry_closest(&scene->geometry, ray, &hit)) break;
+    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    count_faults(hit.faults, counters);
+    if (!met) break;
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
@@ -28,10 +31,11 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
     if (depth == max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance += direct_light(scene, &surface, ray.direction, n, throughput * bsdf.color * INV_PI,
-                               random_at(stream, depth, DIM_LIGHT), true, rays);
+                               random_at(stream, depth, DIM_LIGHT), true, rays, counters);
     }
     real4 random = random_at(stream, depth, DIM_BSDF);
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
@@ -57,7 +61,7 @@ kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile globa
       (real2)(pixel % params.width, pixel / params.width) + camera_stratum((params.pass + (pixel * 0x9e3779b9u >> 30)) % 4u, 4u, numbers.xy);
   Ray ray = camera_ray(&params.camera, params.width, params.height, position, numbers.zw);
   uint rays = 0;
-  real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays);
+  real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays, counters);
   film_add(film + pixel, radiance, counters);
   atomic_add(&counters->rays, rays);
 }

@@ -25,12 +25,16 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   Ray ray = photon_emit(&scene, stream, &flux);
   uint rays = 0;
   for (uint depth = 0; depth < params.max_depth; ++depth) {
-    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    Hit hit = hit_none(INFINITY);
+    if (!(max_component(flux) > 0)) break;
     ++rays;
-    if (!(max_component(flux) > 0) || !geometry_closest(&scene.geometry, ray, &hit)) break;
+    bool met = geometry_closest(&scene.geometry, ray, &hit);
+    count_faults(hit.faults, counters);
+    if (!met) break;
     Surface surface;
     geometry_surface(&scene.geometry, ray, hit, &surface);
     Bsdf bsdf = bsdf_at(materials + surface.material, textures, texels, surface.uv);
+    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     real3 n = facing_normal(&surface, ray.direction);
     real4 random = random_at(stream, depth, DIM_BSDF);
 
@@ -49,7 +53,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
         uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
              b = flux_quantise(flux.z, dither.z, &saturated);
         if (saturated) atomic_inc(&counters->saturated);
-        if (isfinite(flux.x + flux.y + flux.z)) {
+        if (isfinite(flux.x + flux.y + flux.z + surface.position.x + surface.position.y + surface.position.z)) {
           uint slot = atomic_inc(&counters->photons);
           if (slot < params.photon_capacity) {
             bool front = dot(surface.geometric_normal, ray.direction) < 0;

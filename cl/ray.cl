@@ -1,4 +1,5 @@
 // Rays, hits and the surface found at a hit.
+#include "faults.cl"
 #include "prelude.cl"
 
 // The ray origin + t direction for 0 < t < t_max; direction is of unit length.
@@ -12,10 +13,17 @@ typedef struct {
   real t;
   uint primitive;  // HIT_NONE; HIT_SHAPE | index into shapes; else a triangle reference
   real u, v;       // triangle: barycentric weights of vertices 1 and 2; bezier: see bezier.cl; else unused
+  uint faults;     // FAULT_* bits of this ray; see faults.cl
 } Hit;
 
 #define HIT_NONE 0xffffffffu
 #define HIT_SHAPE 0x80000000u
+
+// Nothing yet, and nothing beyond t_max.
+INLINE Hit hit_none(real t_max) {
+  Hit hit = {t_max, HIT_NONE, 0, 0, 0};
+  return hit;
+}
 
 // Geometry at a hit. Both normals have unit length; `geometric_normal` points outward (sphere, box, bezier),
 // to local +z (rectangle, disk, plane) or by counter-clockwise winding (mesh). `shading_normal` is on the

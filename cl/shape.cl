@@ -21,13 +21,16 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   hit->primitive = HIT_SHAPE | index;
   hit->u = parameters.x;
   hit->v = parameters.y;
+  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER && parameters.x < 0) hit->faults |= FAULT_UNRESOLVED;
   return true;
 }
 
-// Whether the ray meets the shape at 0 < t < t_max.
-INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max) {
-  Hit hit = {t_max, HIT_NONE, 0, 0};
-  return shape_closest(shape, 0, curves, ray, &hit);
+// Whether the ray meets the shape at 0 < t < t_max. Adds to *faults.
+INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *faults) {
+  Hit hit = hit_none(t_max);
+  bool occluded = shape_closest(shape, 0, curves, ray, &hit);
+  *faults |= hit.faults;
+  return occluded;
 }
 
 // Position, normals, uv and material at a hit that shape_closest found on the same ray.

@@ -188,8 +188,9 @@ CHECK_SIZE(SppmPixel, 16);
 typedef struct {
   float sum[3];
   float low[3];
+  uint left_out;  // estimates that were not finite: the mean is over the others
 } FilmPixel;
-CHECK_SIZE(FilmPixel, 24);
+CHECK_SIZE(FilmPixel, 28);
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0.
@@ -202,8 +203,9 @@ typedef struct {
 CHECK_SIZE(VisiblePoint, 40);
 
 // A photon that landed on a diffuse surface, as traced. Flux is quantised with unbiased dithering in units of
-// Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
-#define PHOTON_FLUX_UNIT 16384.0f
+// Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order. Sixteen bits hold 16
+// times the flux of an emitted photon, which is as far as the factors of shading normals go.
+#define PHOTON_FLUX_UNIT 4096.0f
 typedef struct {
   float position[3];
   uint normal;         // normal_pack, facing the side that the photon came from
@@ -229,8 +231,11 @@ typedef struct {
   uint rays;           // traced, shadow rays included
   uint non_finite;     // samples that were NaN or Inf and were left out
   uint saturated;      // photons whose flux was above what the record holds
+  uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
+  uint traversal_bound;  // rays whose walk through the tree was cut short
+  uint unused[2];
 } Counters;
-CHECK_SIZE(Counters, 16);
+CHECK_SIZE(Counters, 32);
 
 #ifndef __OPENCL_VERSION__
 }  // namespace causticl

@@ -16,7 +16,7 @@ class Film {
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
   static constexpr double bytes_per_pixel = sizeof(FilmPixel);
 
-  /// The mean of `passes` estimates a pixel. Waits for the queue.
+  /// The mean of `passes` estimates a pixel, of those that were finite. Waits for the queue.
   Picture picture(std::uint64_t passes);
 
  private:

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "faults.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -17,7 +18,8 @@ class PassIntegrator {
 
   /// Waits for all passes enqueued so far and returns the device's counters, each summed without wrapping.
   struct Totals {
-    std::uint64_t photons_emitted = 0, photons_stored_last_pass = 0, rays = 0, non_finite = 0, saturated = 0;
+    std::uint64_t photons_emitted = 0, photons_stored_last_pass = 0, rays = 0;
+    Faults faults;
   };
   virtual Totals finish() = 0;
 
@@ -33,11 +35,14 @@ class CounterTotals {
   /// Takes a fresh reading; at most 2^32 - 1 events may have happened since the last.
   void update(const Counters& now) {
     rays += static_cast<uint>(now.rays - last_.rays);
-    non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
-    saturated += static_cast<uint>(now.saturated - last_.saturated);
+    faults.non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
+    faults.saturated += static_cast<uint>(now.saturated - last_.saturated);
+    faults.unresolved += static_cast<uint>(now.unresolved - last_.unresolved);
+    faults.traversal_bound += static_cast<uint>(now.traversal_bound - last_.traversal_bound);
     last_ = now;
   }
-  std::uint64_t rays = 0, non_finite = 0, saturated = 0;
+  std::uint64_t rays = 0;
+  Faults faults;
 
  private:
   Counters last_{};

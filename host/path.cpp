@@ -35,7 +35,7 @@ PassIntegrator::Totals PathTracer::finish() {
   totals_.update(device_.download<Counters>(counters_, 1)[0]);
   Totals result;
   result.rays = totals_.rays;
-  result.non_finite = totals_.non_finite;
+  result.faults = totals_.faults;
   return result;
 }
 

@@ -36,17 +36,10 @@ Counters PhotonMap::trace(Params params) {
   stored_ = 0;
   if (params.emitter_count == 0) return device_.download<Counters>(counters_, 1)[0];
   // Two stored photons for each emitted one are usual; a closed white room wants more, and gets it below.
-  std::uint64_t wanted = std::max<std::uint64_t>(capacity_, 2ull * params.photon_count);
+  if (!reserve_photons(2ull * params.photon_count))
+    throw UserError(std::to_string(params.photon_count) +
+                    " photons a pass are more than this device can store; use fewer a pass and more passes");
   for (;;) {
-    if (wanted > capacity_) {
-      // Words of sorted photons are indexed by 32 bits.
-      if (wanted > 0xfffffff0u / PHOTON_WORDS)
-        throw UserError(std::to_string(params.photon_count) +
-                        " photons a pass are more than one pass can store; use fewer a pass and more passes");
-      photons_ = {};
-      photons_ = device_.buffer(wanted * sizeof(Photon), "photons");
-      capacity_ = static_cast<std::uint32_t>(wanted);
-    }
     params.photon_capacity = capacity_;
     device_.clear(counters_, sizeof(cl_uint));
     trace_photons_.setArg(first_argument_, photons_);
@@ -54,12 +47,30 @@ Counters PhotonMap::trace(Params params) {
     trace_photons_.setArg(first_argument_ + 2, params);
     device_.launch(trace_photons_, params.photon_count);
     const Counters counters = device_.download<Counters>(counters_, 1)[0];
-    if (counters.photons <= capacity_) {
-      stored_ = counters.photons;
+    stored_ = std::min(counters.photons, capacity_);
+    if (counters.photons <= capacity_) return counters;
+    if (full_ || !reserve_photons(counters.photons + counters.photons / 8ull)) {
+      full_ = true;
+      dropped_ += counters.photons - capacity_;
       return counters;
     }
-    wanted = counters.photons + counters.photons / 8ull;
   }
+}
+
+/// Makes room for `wanted` photons. False, and all as it was, where the device has not that much.
+bool PhotonMap::reserve_photons(std::uint64_t wanted) {
+  if (wanted <= capacity_) return true;
+  // Words of sorted photons are indexed by 32 bits.
+  if (wanted > 0xfffffff0u / PHOTON_WORDS) return false;
+  photons_ = {};  // first, so that the device need not hold both
+  try {
+    photons_ = device_.buffer(wanted * sizeof(Photon), "photons");
+  } catch (const DeviceError&) {
+    if (capacity_ > 0) photons_ = device_.buffer(capacity_ * sizeof(Photon), "photons");
+    return false;
+  }
+  capacity_ = static_cast<std::uint32_t>(wanted);
+  return true;
 }
 
 void PhotonMap::reserve_buckets(std::size_t buckets) {

@@ -14,13 +14,16 @@ class PhotonMap {
 
   /// Traces params.photon_count photons of pass params.pass. Waits for the device, since only it knows how
   /// many were stored; where the buffer was too small, it grows and the pass is traced again, to the same
-  /// photons. Returns the counters as they were left.
+  /// photons. Where the device has no room for that, the photons beyond are dropped and counted. Returns the
+  /// counters as they were left.
   Counters trace(Params params);
 
   /// Enqueues the sort into cubes with edges of `cell` units.
   void sort(double cell);
 
   std::uint32_t stored() const { return stored_; }
+  /// Photons of all passes that found no room.
+  std::uint64_t dropped() const { return dropped_; }
   const Grid& grid() const { return grid_; }
   const cl::Buffer& starts() const { return starts_; }
   const cl::Buffer& sorted() const { return sorted_; }
@@ -33,10 +36,13 @@ class PhotonMap {
   cl_uint first_argument_;
   cl::Buffer counters_, photons_, sorted_, cursors_, sums_, starts_;
   std::uint32_t capacity_ = 0, stored_ = 0;
+  std::uint64_t dropped_ = 0;
+  bool full_ = false;  // the device has no room for a larger buffer
   std::size_t sorted_capacity_ = 0, bucket_capacity_ = 0;
   Grid grid_{};
 
   void reserve_buckets(std::size_t buckets);
+  bool reserve_photons(std::uint64_t wanted);
 };
 
 }  // namespace causticl

@@ -139,6 +139,8 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
   std::fprintf(stream_, "causticl: wrote %s: %llu passes in %.1f s (%s)\n", names.c_str(),
                static_cast<unsigned long long>(statistics.passes), statistics.seconds,
                reason(statistics.stop));
+  for (const auto& warning : fault_warnings(statistics.faults))
+    std::fprintf(stream_, "causticl: warning: %s\n", warning.c_str());
   std::fflush(stream_);
 }
 

@@ -34,7 +34,8 @@ class ProgressReport {
   /// A line "causticl: note: TEXT"; each text once. Empty texts print nothing.
   void note(const std::string& text);
   void update(const Progress& now);
-  /// Removes the bar and prints one line: the files written, the passes, the seconds and why it stopped.
+  /// Removes the bar and prints a line: the files written, the passes, the seconds and why it stopped; and
+  /// one for each kind of fault that occurred.
   void finish(const std::vector<std::string>& files, const Statistics& statistics);
 
  private:

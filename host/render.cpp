@@ -24,16 +24,16 @@ double seconds_since(Clock::time_point start) {
 const char* name_of(Integrator integrator) { return integrator == Integrator::sppm ? "sppm" : "pt"; }
 
 Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Statistics& statistics) {
-  return {{"scene", scene.file},
-          {"integrator", name_of(scene.renderer.integrator)},
-          {"seed", std::to_string(options.seed)},
-          {"passes", std::to_string(statistics.passes)},
-          {"photons", std::to_string(statistics.photons)},
-          {"device", statistics.device},
-          {"seconds", std::to_string(statistics.seconds)},
-          {"causticl_version", CAUSTICL_VERSION},
-          {"non_finite", std::to_string(statistics.non_finite)},
-          {"saturated", std::to_string(statistics.saturated)}};
+  Metadata metadata{{"scene", scene.file},
+                    {"integrator", name_of(scene.renderer.integrator)},
+                    {"seed", std::to_string(options.seed)},
+                    {"passes", std::to_string(statistics.passes)},
+                    {"photons", std::to_string(statistics.photons)},
+                    {"device", statistics.device},
+                    {"seconds", std::to_string(statistics.seconds)},
+                    {"causticl_version", CAUSTICL_VERSION}};
+  for (const auto& kind : fault_kinds) metadata[kind.key] = std::to_string(statistics.faults.*kind.count);
+  return metadata;
 }
 
 /// When outputs are rewritten while passes go on.
@@ -106,6 +106,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     const auto write_start = Clock::now();
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
+    statistics.faults = totals.faults;
     for (const auto& file : options.outputs)
       write_picture(file, picture, metadata_of(scene, options, statistics));
     longest_write = std::max(longest_write, seconds_since(write_start));
@@ -149,8 +150,6 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
 
   const double loop_seconds = std::max(seconds_since(loop_start), 1e-9);
   statistics.rays = totals.rays;
-  statistics.non_finite = totals.non_finite;
-  statistics.saturated = totals.saturated;
   statistics.stored_photons = totals.photons_stored_last_pass;
   statistics.photons_per_second = static_cast<double>(totals.photons_emitted) / loop_seconds;
   statistics.rays_per_second = static_cast<double>(totals.rays) / loop_seconds;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device.hpp"
+#include "faults.hpp"
 #include "image.hpp"
 #include "scene.hpp"
 
@@ -45,13 +46,13 @@ struct Statistics {
   std::uint64_t passes = 0, photons = 0, rays = 0;
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
-  std::uint64_t stored_photons = 0;             // in the last pass
-  double first_radius = 0;                      // sppm
-  bool first_radius_chosen = false;             // from the scene, not from the file
-  std::uint64_t device_bytes = 0;               // largest amount allocated on the device
-  std::uint64_t peak_memory_bytes = 0;          // of the process
-  double bytes_per_pixel = 0;                   // device memory that grows with the number of pixels
-  std::uint64_t non_finite = 0, saturated = 0;  // samples left out; photons too bright for their record
+  std::uint64_t stored_photons = 0;     // in the last pass
+  double first_radius = 0;              // sppm
+  bool first_radius_chosen = false;     // from the scene, not from the file
+  std::uint64_t device_bytes = 0;       // largest amount allocated on the device
+  std::uint64_t peak_memory_bytes = 0;  // of the process
+  double bytes_per_pixel = 0;           // device memory that grows with the number of pixels
+  Faults faults;
   std::map<std::string, KernelTime> kernels;
 };
 

@@ -76,17 +76,14 @@ std::string statistics_table(const Statistics& s) {
   }
   append(text, "  %-28s %s, %.1f bytes a pixel\n", "device memory",
          byte_size(static_cast<double>(s.device_bytes)).c_str(), s.bytes_per_pixel);
-  append(text, "  %-28s %s\n\n", "peak memory of the process",
+  append(text, "  %-28s %s\n", "peak memory of the process",
          byte_size(static_cast<double>(s.peak_memory_bytes)).c_str());
-  text += kernel_table(s.kernels);
+  append(text, "  %-28s", "faults");
+  for (const auto& kind : fault_kinds) append(text, " %s %llu", kind.key, Number(s.faults.*kind.count));
+  text += "\n\n" + kernel_table(s.kernels);
 
   if (s.skipped_triangles)
     append(text, "warning: %llu triangles without area were left out\n", Number(s.skipped_triangles));
-  if (s.non_finite)
-    append(text, "warning: %llu samples were not finite and were left out\n", Number(s.non_finite));
-  if (s.saturated)
-    append(text, "warning: %llu photons were brighter than their record holds and were clamped\n",
-           Number(s.saturated));
   return text;
 }
 
@@ -96,32 +93,31 @@ std::string statistics_json(const Statistics& s) {
     milliseconds[kernel] = time.milliseconds;
     launches[kernel] = time.launches;
   }
-  const nlohmann::ordered_json object = {{"version", CAUSTICL_VERSION},
-                                         {"device", s.device},
-                                         {"stop", name(s.stop)},
-                                         {"seconds", s.seconds},
-                                         {"first_pass_seconds", s.first_pass_seconds},
-                                         {"kernel_build_seconds", s.kernel_build_seconds},
-                                         {"tree_build_seconds", s.tree_build_seconds},
-                                         {"passes", s.passes},
-                                         {"photons", s.photons},
-                                         {"photons_per_second", s.photons_per_second},
-                                         {"rays", s.rays},
-                                         {"rays_per_second", s.rays_per_second},
-                                         {"triangles", s.triangles},
-                                         {"shapes", s.shapes},
-                                         {"skipped_triangles", s.skipped_triangles},
-                                         {"emitters", s.emitters},
-                                         {"stored_photons", s.stored_photons},
-                                         {"first_radius", s.first_radius},
-                                         {"first_radius_chosen", s.first_radius_chosen},
-                                         {"device_bytes", s.device_bytes},
-                                         {"peak_memory_bytes", s.peak_memory_bytes},
-                                         {"bytes_per_pixel", s.bytes_per_pixel},
-                                         {"non_finite", s.non_finite},
-                                         {"saturated", s.saturated},
-                                         {"kernels", milliseconds},
-                                         {"kernel_launches", launches}};
+  nlohmann::ordered_json object = {{"version", CAUSTICL_VERSION},
+                                   {"device", s.device},
+                                   {"stop", name(s.stop)},
+                                   {"seconds", s.seconds},
+                                   {"first_pass_seconds", s.first_pass_seconds},
+                                   {"kernel_build_seconds", s.kernel_build_seconds},
+                                   {"tree_build_seconds", s.tree_build_seconds},
+                                   {"passes", s.passes},
+                                   {"photons", s.photons},
+                                   {"photons_per_second", s.photons_per_second},
+                                   {"rays", s.rays},
+                                   {"rays_per_second", s.rays_per_second},
+                                   {"triangles", s.triangles},
+                                   {"shapes", s.shapes},
+                                   {"skipped_triangles", s.skipped_triangles},
+                                   {"emitters", s.emitters},
+                                   {"stored_photons", s.stored_photons},
+                                   {"first_radius", s.first_radius},
+                                   {"first_radius_chosen", s.first_radius_chosen},
+                                   {"device_bytes", s.device_bytes},
+                                   {"peak_memory_bytes", s.peak_memory_bytes},
+                                   {"bytes_per_pixel", s.bytes_per_pixel},
+                                   {"kernels", milliseconds},
+                                   {"kernel_launches", launches}};
+  for (const auto& kind : fault_kinds) object[kind.key] = s.faults.*kind.count;
   // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

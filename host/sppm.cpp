@@ -122,7 +122,9 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
 
 PassIntegrator::Totals Sppm::finish() {
   totals_.update(device_.download<Counters>(counters_, 1)[0]);
-  return {emitted_, photon_map_.stored(), totals_.rays, totals_.non_finite, totals_.saturated};
+  Faults faults = totals_.faults;
+  faults.dropped = photon_map_.dropped();
+  return {emitted_, photon_map_.stored(), totals_.rays, faults};
 }
 
 double Sppm::bytes_per_pixel() const {

@@ -25,14 +25,16 @@ Material device_material(const MaterialSpec& spec, double outside_ior) {
   return result;
 }
 
-/// IEEE half, round to nearest even, saturating at the largest finite value.
+/// IEEE half, round to nearest even; large values become the largest finite one. NaN and infinity stay what they
+/// are: the kernels stop and count them.
 std::uint16_t to_half(float value) {
   cl_half sign = 0;
   if (value < 0) {
     sign = 0x8000;
     value = -value;
   }
-  if (!(value < 65504.0f)) return static_cast<std::uint16_t>(sign | (value == value ? 0x7bff : 0));
+  if (std::isnan(value)) return 0x7e00;
+  if (value >= 65504.0f) return static_cast<std::uint16_t>(sign | (std::isinf(value) ? 0x7c00 : 0x7bff));
   if (value == 0) return sign;  // frexp gives 0 the exponent of 1/4
   // The smallest normal half is 2^-14; below it the spacing stays 2^-24.
   int exponent;

@@ -24,7 +24,7 @@ kernel void closest(GEOMETRY_PARAMETERS, global const float4 *rays, global float
   uint i = get_global_id(0);
   if (i >= count) return;
   GEOMETRY_INIT(0)
-  Hit hit = {rays[2 * i].w, HIT_NONE, 0, 0};
+  Hit hit = hit_none(rays[2 * i].w);
   geometry_closest(&geometry, load_ray(rays, i), &hit);
   distances[i] = hit.t;
 }
@@ -32,7 +32,8 @@ kernel void occluded(GEOMETRY_PARAMETERS, global const float4 *rays, global uint
   uint i = get_global_id(0);
   if (i >= count) return;
   GEOMETRY_INIT(0)
-  result[i] = geometry_occluded(&geometry, load_ray(rays, i), rays[2 * i].w);
+  uint faults = 0;
+  result[i] = geometry_occluded(&geometry, load_ray(rays, i), rays[2 * i].w, &faults);
 }
 )";
 

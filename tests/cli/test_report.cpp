@@ -12,6 +12,7 @@
 
 using namespace causticl;
 using Catch::Contains;
+using Catch::StartsWith;
 
 namespace {
 
@@ -184,11 +185,21 @@ TEST_CASE("the table lists kernels by their share of the time") {
   CHECK_THAT(table, !Contains("warning"));
 }
 
-TEST_CASE("the table warns of samples that were left out or clamped") {
+TEST_CASE("every kind of fault is counted in the table and the JSON, and warned about") {
   Statistics statistics = example_statistics();
-  statistics.non_finite = 3;
-  statistics.saturated = 5;
-  CHECK_THAT(statistics_table(statistics), Contains("warning: 3 samples") && Contains("warning: 5 photons"));
+  CHECK(fault_warnings(statistics.faults).empty());
+  std::uint64_t count = 3;
+  for (const auto& kind : fault_kinds) statistics.faults.*kind.count = count++;
+  const std::string table = statistics_table(statistics);
+  const auto object = nlohmann::json::parse(statistics_json(statistics));
+  const auto warnings = fault_warnings(statistics.faults);
+  REQUIRE(warnings.size() == std::size(fault_kinds));
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    const std::string number = std::to_string(i + 3);
+    CHECK_THAT(table, Contains(std::string(fault_kinds[i].key) + " " + number));
+    CHECK(object[fault_kinds[i].key] == i + 3);
+    CHECK_THAT(warnings[i], StartsWith(number + " "));
+  }
 }
 
 TEST_CASE("the JSON of the statistics is one object with the promised keys") {

@@ -78,10 +78,11 @@ kernel void trace(global const Shape *shapes, global const float *curves, global
   uint index = (uint)rays[2 * i + 1].w;
   global const Shape *shape = shapes + index;
   Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
-  Hit hit = {rays[2 * i].w, HIT_NONE, 0, 0};
+  Hit hit = hit_none(rays[2 * i].w);
   bool found = shape_closest(shape, index, curves, ray, &hit);
   bool named = found == (hit.primitive == (HIT_SHAPE | index));
-  bool occluded = shape_occluded(shape, curves, ray, rays[2 * i].w);
+  uint faults = 0;
+  bool occluded = shape_occluded(shape, curves, ray, rays[2 * i].w, &faults);
   result[0] = (float4)(hit.t, hit.u, hit.v, found && named);
   result[4] = (float4)(0, 0, 0, occluded);
   result[5] = (float4)(INFINITY, 0, 0, 0);
@@ -95,7 +96,7 @@ kernel void trace(global const Shape *shapes, global const float *curves, global
   Ray next;
   next.direction = spawned[i].xyz;
   next.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
-  Hit again = {INFINITY, HIT_NONE, 0, 0};
+  Hit again = hit_none(INFINITY);
   shape_closest(shape, index, curves, next, &again);
   result[5] = (float4)(again.t, next.origin);
 }

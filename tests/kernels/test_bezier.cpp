@@ -287,7 +287,7 @@ kernel void chain(global const Shape *shape, global const float *curves, global 
     float3 direction = (float3)(r * c, r * s, z);
     if (bounce > 0) {
       Surface surface;
-      Hit hit = {INFINITY, HIT_NONE, 0, 0};
+      Hit hit = hit_none(INFINITY);
       if (!shape_closest(shape, 0, curves, ray, &hit)) {
         ++lost;
         ray.origin = start.xyz;

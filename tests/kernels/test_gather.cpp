@@ -259,7 +259,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   params.alpha = 0.7f;
   const SortedPhotons map = sort_photons(program(), photons, grid);
   auto in = test_device().upload(visible, "visible points");
-  auto counter = test_device().upload(std::vector<Counters>{{0, 0, 0, 0}}, "counters");
+  auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
 
   for (const float shared_radius2 : {0.0f, 0.0144f}) {
     CAPTURE(shared_radius2);
@@ -288,7 +288,8 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
         if (v.weight[0] + v.weight[1] + v.weight[2] > 0) count += sum.count;
         const std::uint64_t flux[3] = {sum.red, sum.green, sum.blue};
         for (int c = 0; c < 3; ++c)
-          radiance[c] += v.radiance[c] + v.weight[c] * double(flux[c]) * 0.125 / 16384 / (M_PI * radius2);
+          radiance[c] +=
+              v.radiance[c] + v.weight[c] * double(flux[c]) * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
       }
       const SppmPixel& pixel = after[first + i];
       if (shared_radius2 > 0) {

@@ -30,8 +30,10 @@ kernel void sample(SCENE_PARAMETERS, global const float4 *uniform, global Output
   Ray ray = {position.xyz, light.direction};
   out[i].direction = (float4)(light.direction, light.pdf);
   out[i].light = (float4)(light.distance, 0, 0, 0);
-  out[i].weight = (float4)(light.weight, geometry_occluded(&scene.geometry, ray, light.distance - light.margin));
-  Hit hit = {INFINITY, HIT_NONE, 0, 0};
+  uint faults = 0;
+  bool occluded = geometry_occluded(&scene.geometry, ray, light.distance - light.margin, &faults);
+  out[i].weight = (float4)(light.weight, occluded);
+  Hit hit = hit_none(INFINITY);
   if (!(light.pdf > 0) || !geometry_closest(&scene.geometry, ray, &hit)) return;
   Surface surface;
   geometry_surface(&scene.geometry, ray, hit, &surface);
@@ -48,7 +50,7 @@ kernel void density(SCENE_PARAMETERS, global const float4 *directions, global fl
   Ray ray = {position.xyz, directions[i].xyz};
   real sum = 0, before = 0;
   for (uint n = 0; n < 8; ++n) {
-    Hit hit = {INFINITY, HIT_NONE, 0, 0};
+    Hit hit = hit_none(INFINITY);
     if (!geometry_closest(&scene.geometry, ray, &hit)) break;
     Surface surface;
     geometry_surface(&scene.geometry, ray, hit, &surface);
@@ -339,7 +341,8 @@ TEST_CASE("photons leave uniformly over the area, by the cosine law, each channe
 
 TEST_CASE("flux is quantised without bias, and says where it does not fit") {
   RandomInputs random(94);
-  const std::vector<float> fluxes{0, 1e-6f, 3.7e-5f, 0.3f, 1, 2.71828f, 3.9999f, 4, 5, 1e6f, INFINITY};
+  const std::vector<float> fluxes{0, 1e-6f,   3.7e-5f, 0.3f, 1,    2.71828f, 3.9999f,
+                                  4, 15.999f, 16,      17,   1e6f, INFINITY};
   constexpr std::size_t each = 1 << 18;
   std::vector<float2> in;
   for (const float flux : fluxes)
@@ -352,7 +355,7 @@ TEST_CASE("flux is quantised without bias, and says where it does not fit") {
     CAPTURE(fluxes[f]);
     double sum = 0;
     std::size_t saturated = 0, wrong = 0;
-    const double exact = static_cast<double>(fluxes[f]) * 16384;
+    const double exact = static_cast<double>(fluxes[f]) * PHOTON_FLUX_UNIT;
     for (std::size_t i = f * each; i < (f + 1) * each; ++i) {
       sum += units[i].x;
       saturated += units[i].y;

@@ -103,6 +103,8 @@ const std::vector<Field> fields{
     FIELD(Counters, rays),
     FIELD(Counters, non_finite),
     FIELD(Counters, saturated),
+    FIELD(Counters, unresolved),
+    FIELD(Counters, traversal_bound),
 };
 
 }  // namespace

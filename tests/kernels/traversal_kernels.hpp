@@ -20,8 +20,9 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   hit->primitive = HIT_SHAPE | index;
   return true;
 }
-INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max) {
-  Hit hit = {t_max, HIT_NONE, 0, 0};
+INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max,
+                           uint *faults) {
+  Hit hit = hit_none(t_max);
   return shape_closest(shape, 0, curves, ray, &hit);
 }
 )";
@@ -43,7 +44,7 @@ kernel void closest(global const KdNode *nodes, global const TriangleBlock *bloc
                     global const float4 *rays, global float4 *hits, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  Hit hit = {rays[2 * i].w, HIT_NONE, 0, 0};
+  Hit hit = hit_none(rays[2 * i].w);
   kdtree_closest(nodes, blocks, shapes, 0, load_ray(rays, i), &hit);
   store_hit(hits, i, blocks, hit);
 }
@@ -51,7 +52,8 @@ kernel void occluded(global const KdNode *nodes, global const TriangleBlock *blo
                      global const float4 *rays, global uint *result, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  result[i] = kdtree_occluded(nodes, blocks, shapes, 0, load_ray(rays, i), rays[2 * i].w);
+  uint faults = 0;
+  result[i] = kdtree_occluded(nodes, blocks, shapes, 0, load_ray(rays, i), rays[2 * i].w, &faults);
 }
 // Every primitive in turn: `blocks` holds each once, the shapes in blocks of their own.
 kernel void brute_force(global const TriangleBlock *blocks, uint block_count, global const Shape *shapes,
@@ -60,7 +62,7 @@ kernel void brute_force(global const TriangleBlock *blocks, uint block_count, gl
   if (i >= count) return;
   Ray ray = load_ray(rays, i);
   ShearedRay sheared = sheared_ray(ray);
-  Hit hit = {rays[2 * i].w, HIT_NONE, 0, 0};
+  Hit hit = hit_none(rays[2 * i].w);
   for (uint b = 0; b < block_count; ++b) block_closest(blocks, b, sheared, &hit);
   for (uint s = 0; s < shape_count; ++s) shape_closest(shapes + s, s, 0, ray, &hit);
   store_hit(hits, i, blocks, hit);

@@ -50,8 +50,8 @@ TEST_CASE("every shipped scene renders with both integrators to about the same b
     scene.renderer.photons = 50000;
     const auto sppm = render_with(scene, Integrator::sppm, 8);
     const auto pt = render_with(scene, Integrator::pt, 128);
-    CHECK(sppm.statistics.non_finite == 0);
-    CHECK(pt.statistics.non_finite == 0);
+    CHECK(sppm.statistics.faults.non_finite == 0);
+    CHECK(pt.statistics.faults.non_finite == 0);
     CHECK(mean_luminance(pt.picture) > 0.01);
     // A coarse check of a coarse picture; the long test has the real criterion.
     CHECK(mean_luminance(sppm.picture) == Approx(mean_luminance(pt.picture)).epsilon(0.1));

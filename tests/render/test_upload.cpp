@@ -34,3 +34,17 @@ TEST_CASE("texels reach the device as the nearest halfs") {
     CHECK(std::fabs(static_cast<double>(value) - half) <= bound);
   }
 }
+
+TEST_CASE("texels that are not finite reach the device as such, to be counted there") {
+  Scene scene;
+  scene.objects.push_back({});
+  scene.materials.push_back({});
+  scene.images.push_back({"", 1, 1, {NAN, INFINITY, -INFINITY, 1e6f}});
+  scene.textures.push_back({TextureSpec::Kind::image, 0, false, {1, 1}, {}, {}});
+  scene.materials[0].color_texture = 0;
+  const auto texels = test_device().download<cl_half>(upload_scene(scene, test_device()).texels, 4);
+  CHECK(std::isnan(cl_half_to_float(texels[0])));
+  CHECK(cl_half_to_float(texels[1]) == INFINITY);
+  CHECK(cl_half_to_float(texels[2]) == -INFINITY);
+  CHECK(cl_half_to_float(texels[3]) == 65504.0f);
+}

@@ -1,0 +1,38 @@
+// What should not happen in a render and is counted where it does: shown by --stats, written to EXR metadata,
+// and warned about.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace causticl {
+
+struct Faults {
+  std::uint64_t non_finite = 0, saturated = 0, unresolved = 0, traversal_bound = 0, dropped = 0;
+};
+
+struct FaultKind {
+  const char* key;  // in JSON and metadata
+  std::uint64_t Faults::*count;
+  const char* meaning;  // after the count: "3 samples were ..."
+};
+
+/// Every kind, one row each.
+inline constexpr FaultKind fault_kinds[] = {
+    {"non_finite", &Faults::non_finite,
+     "samples were NaN or infinite and were left out (look for such values in textures)"},
+    {"saturated", &Faults::saturated,
+     "photons were brighter than their record holds and were clamped: light is missing"},
+    {"unresolved", &Faults::unresolved,
+     "rays met a revolved curve where two roots could not be told apart; one was taken"},
+    {"traversal_bound", &Faults::traversal_bound,
+     "rays gave up in the tree: the device computes wrongly (run `causticl selftest`)"},
+    {"dropped", &Faults::dropped,
+     "photons found no room in the device's memory: light is missing; fewer photons a pass (--photons) fit"},
+};
+
+/// "3 samples were NaN or infinite ...", for each kind that occurred.
+std::vector<std::string> fault_warnings(const Faults& faults);
+
+}  // namespace causticl
