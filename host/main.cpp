@@ -41,10 +41,11 @@ int render(const Options& options) {
 
 int selftest(const Options& options) {
   if (!options.selftest_json.empty()) check_writable(options.selftest_json);
+  const auto checks = wanted_checks(stability_checks(), options.selftest);
   const DeviceInfo device_info = find_device(options.device);
   Device device(device_info, options.threads);
   std::fputs(selftest_heading(device_info, options.selftest).c_str(), stdout);
-  const auto rows = run_selftest(device, stability_checks(), options.selftest, [](const SelftestRow& row) {
+  const auto rows = run_selftest(device, checks, options.selftest, [](const SelftestRow& row) {
     std::fputs(selftest_line(row).c_str(), stdout);
     std::fflush(stdout);
   });

@@ -31,16 +31,6 @@ bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
   });
 }
 
-std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOptions& options) {
-  for (const auto& text : options.checks)
-    if (std::none_of(checks.begin(), checks.end(),
-                     [&](const Check& check) { return is_wanted(check, {text}); }))
-      throw UserError("--case " + text + ": no such check; expected a number from 1 to " +
-                      std::to_string(hard_case_count) + " or part of the name of a check");
-  std::erase_if(checks, [&](const Check& check) { return !is_wanted(check, options.checks); });
-  return checks;
-}
-
 std::string verdict_of(const CheckResult& result) {
   return !result.skipped.empty() ? "skipped" : result.failures ? "FAILED" : "ok";
 }
@@ -54,24 +44,34 @@ std::string format(const char* pattern, Arguments... arguments) {
 
 }  // namespace
 
-std::vector<SelftestRow> run_selftest(Device& device, std::vector<Check> all, const SelftestOptions& options,
+std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOptions& options) {
+  for (const auto& text : options.checks)
+    if (std::none_of(checks.begin(), checks.end(),
+                     [&](const Check& check) { return is_wanted(check, {text}); }))
+      throw UserError("--case " + text + ": no such check; expected a number from 1 to " +
+                      std::to_string(hard_case_count) + " or part of the name of a check");
+  std::erase_if(checks, [&](const Check& check) { return !is_wanted(check, options.checks); });
+  if (!options.replay.empty() && checks.size() != 1)
+    throw UserError("--replay: expected --case with the name of the one check that the input is for, found " +
+                    std::to_string(checks.size()) + " checks");
+  return checks;
+}
+
+std::vector<SelftestRow> run_selftest(Device& device, const std::vector<Check>& checks,
+                                      const SelftestOptions& options,
                                       const std::function<void(const SelftestRow&)>& report) {
-  const auto checks = wanted_checks(std::move(all), options);
   CheckContext context{device, options.kernel_dir, 0, options.seed, options.threads, {}};
-  if (!options.replay.empty()) {
-    if (checks.size() != 1)
-      throw UserError(
-          "--replay: expected --case with the name of the one check that the input is for, found " +
-          std::to_string(checks.size()) + " checks");
-    context.replay = parse_replay(options.replay);
-  }
+  if (!options.replay.empty()) context.replay = parse_replay(options.replay);
   std::vector<SelftestRow> rows;
   for (const auto& check : checks) {
     context.inputs = inputs_of(check, options);
     const auto start = std::chrono::steady_clock::now();
     rows.push_back({check, check.run(context)});
-    rows.back().result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    CheckResult& result = rows.back().result;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (context.replay && !context.replayed)
+      throw UserError("--replay: the check \"" + check.name +
+                      "\" has no inputs to replay; expected one that printed them");
     if (report) report(rows.back());
   }
   return rows;

@@ -26,9 +26,13 @@ struct SelftestRow {
   CheckResult result;
 };
 
-/// Runs those of the checks that are wanted, in order, and hands each row to `report` when it is done. Throws
-/// UserError where `checks` or `replay` names nothing.
-std::vector<SelftestRow> run_selftest(Device& device, std::vector<Check> checks,
+/// Those of `checks` that the options name. Throws UserError where they name none, or not the one of
+/// `replay`.
+std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOptions& options);
+
+/// Runs the checks in order, and hands each row to `report` when it is done. Throws UserError for a `replay`
+/// that the check cannot take.
+std::vector<SelftestRow> run_selftest(Device& device, const std::vector<Check>& checks,
                                       const SelftestOptions& options,
                                       const std::function<void(const SelftestRow&)>& report = {});
 

@@ -33,8 +33,9 @@ struct CheckContext {
   std::string kernel_dir;    // read cl/ live from here; empty: the embedded sources
   std::uint64_t inputs = 0;  // random inputs to try
   std::uint32_t seed = 1;
-  unsigned threads = 0;                              // of the host's oracles; 0: all of the machine
-  std::optional<std::vector<std::uint32_t>> replay;  // the words of the only input to try
+  unsigned threads = 0;                                // of the host's oracles; 0: all of the machine
+  std::optional<std::vector<std::uint32_t>> replay{};  // the words of the only input to try
+  bool replayed = false;                               // set by a check that took them
 
   /// Builds a check's own OpenCL text; its #include "name.cl" lines take the shipped kernel files. `effects`
   /// are the bits of effects.h that HAS() sees.

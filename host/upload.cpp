@@ -25,8 +25,8 @@ Material device_material(const MaterialSpec& spec, double outside_ior) {
   return result;
 }
 
-/// IEEE half, round to nearest even; large values become the largest finite one. NaN and infinity stay what they
-/// are: the kernels stop and count them.
+/// IEEE half, round to nearest even; large values become the largest finite one. NaN and infinity stay what
+/// they are: the kernels stop and count them.
 std::uint16_t to_half(float value) {
   cl_half sign = 0;
   if (value < 0) {

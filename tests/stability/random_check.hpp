@@ -8,6 +8,7 @@
 #include <mutex>
 #include <type_traits>
 
+#include "error.hpp"
 #include "input_random.hpp"
 #include "selftest_check.hpp"
 #include "task_pool.hpp"
@@ -70,10 +71,11 @@ CheckResult run_random_check(CheckContext& context, double tolerance, const char
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(batch, count - first));
     std::vector<Input> inputs(size);
     if (context.replay) {
-      if (context.replay->size() != words) {
-        result.skipped = "its inputs have " + std::to_string(words) + " numbers";
-        return result;
-      }
+      if (context.replay->size() != words)
+        throw UserError("--replay: expected the " + std::to_string(words) +
+                        " numbers of an input of this check, found " +
+                        std::to_string(context.replay->size()));
+      context.replayed = true;
       std::memcpy(inputs.data(), context.replay->data(), sizeof(Input));
     } else {
       parallel_chunks(size, chunk, context.threads, [&](std::size_t low, std::size_t high) {
