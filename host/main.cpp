@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <new>
 
+#include "compare.hpp"
 #include "error.hpp"
 #include "interruption.hpp"
 #include "options.hpp"
@@ -15,6 +16,10 @@ namespace {
 using namespace causticl;
 
 enum ExitCode { done = 0, fault_of_causticl = 1, fault_of_input = 2, fault_of_device = 3, interrupted = 130 };
+
+std::string size_text(const Picture& picture) {
+  return std::to_string(picture.width) + "x" + std::to_string(picture.height) + " pixels";
+}
 
 int render(const Options& options) {
   Scene scene = load_scene(options.scene, options.scene_options);
@@ -40,7 +45,7 @@ int render(const Options& options) {
 }
 
 int selftest(const Options& options) {
-  if (!options.selftest_json.empty()) check_writable(options.selftest_json);
+  if (!options.json.empty()) check_writable(options.json);
   const auto checks = wanted_checks(stability_checks(), options.selftest);
   const DeviceInfo device_info = find_device(options.device);
   Device device(device_info, options.threads);
@@ -50,9 +55,23 @@ int selftest(const Options& options) {
     std::fflush(stdout);
   });
   std::fputs(selftest_verdict(rows, options.selftest).c_str(), stdout);
-  if (!options.selftest_json.empty())
-    write_file(options.selftest_json, selftest_json(device_info, rows, options.selftest));
+  if (!options.json.empty()) write_file(options.json, selftest_json(device_info, rows, options.selftest));
   return selftest_passed(rows) ? done : fault_of_device;
+}
+
+int compare(const Options& options) {
+  if (!options.error_map.empty()) check_output(options.error_map);
+  if (!options.json.empty()) check_writable(options.json);
+  const Picture picture = read_rendered(options.picture), reference = read_rendered(options.reference);
+  if (picture.width != reference.width || picture.height != reference.height)
+    throw UserError("the pictures differ in size: " + options.picture + " has " + size_text(picture) + ", " +
+                    options.reference + " has " + size_text(reference) + "; expected two of one size");
+  const Comparison comparison = compare_pictures(picture, reference);
+  std::fputs(comparison_table(comparison).c_str(), stdout);
+  if (!options.error_map.empty())
+    write_picture(options.error_map, error_map(comparison, picture.width, picture.height), {});
+  if (!options.json.empty()) write_file(options.json, comparison_json(comparison));
+  return done;
 }
 
 int print(const std::string& text) {
@@ -68,6 +87,8 @@ int run(const Options& options) {
       return print(device_list(list_devices()));
     case Options::Command::info:
       return print(scene_summary(load_scene(options.scene, options.scene_options)));
+    case Options::Command::compare:
+      return compare(options);
     case Options::Command::selftest:
       return selftest(options);
     case Options::Command::print:

@@ -166,10 +166,30 @@ void add_selftest_options(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   app.add_option("--replay", selftest.replay, "the one input of a check that failed, as it was printed")
       ->type_name("WORDS");
-  app.add_option("--json", options.selftest_json, "write the table as one JSON object")->type_name("FILE");
+  app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
   app.add_option("--seed", selftest.seed, "of the random inputs; 1 by default")
       ->check(whole_number(0, 4294967295))
       ->type_name("N");
+}
+
+/// Two pictures and where their difference goes.
+void add_compare_options(CLI::App& app, Options& options) {
+  app.add_option("PICTURE", options.picture, "what was rendered: .exr, .pfm or .png")
+      ->required()
+      ->type_name("");
+  app.add_option("REFERENCE", options.reference, "what it should be")->required()->type_name("");
+  app.add_option("--map", options.error_map, "write FLIP as a picture: black is alike, bright far off")
+      ->type_name("FILE");
+  app.add_option("--json", options.json, "write the numbers as one JSON object")->type_name("FILE");
+}
+
+/// "render, devices or info".
+std::string command_names(const CLI::App& app) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  std::string names;
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == commands.size() ? " or " : ", ") + commands[i]->get_name();
+  return names;
 }
 
 /// CLI11's own wording where it is clear, ours where it is not.
@@ -180,7 +200,7 @@ std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
   const std::string option = text.substr(0, text.find(':'));
   if (commands.empty())
     text = (extras.empty() ? "no command given" : "unknown command or option " + extras.front()) +
-           "; expected render, devices, info or selftest";
+           "; expected " + command_names(app);
   else if (dynamic_cast<const CLI::ExtrasError*>(&error))
     text = "unknown option or argument " + (extras.empty() ? text : extras.front());
   else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
@@ -212,6 +232,8 @@ Options parse_options(int argc, const char* const* argv) {
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
   add_scene_options(info, options, texts);
+  CLI::App& compare = *app.add_subcommand("compare", "Say how far a picture is from a reference");
+  add_compare_options(compare, options);
   CLI::App& selftest = *app.add_subcommand("selftest", "Check the numerics of the kernels on this device");
   add_selftest_options(selftest, options);
   add_device_options(selftest, options);
@@ -234,6 +256,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.command = render.parsed()    ? Options::Command::render
                     : devices.parsed() ? Options::Command::devices
                     : info.parsed()    ? Options::Command::info
+                    : compare.parsed() ? Options::Command::compare
                                        : Options::Command::selftest;
   options.selftest.threads = options.threads;
   options.selftest.kernel_dir = options.kernel_dir;

@@ -14,7 +14,7 @@
 namespace causticl {
 
 struct Options {
-  enum class Command { render, devices, info, selftest, print };
+  enum class Command { render, compare, devices, info, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
@@ -32,8 +32,11 @@ struct Options {
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none
 
+  std::string picture, reference;  // files; compare
+  std::string error_map;           // file; empty: none
+
   SelftestOptions selftest;
-  std::string selftest_json;  // file; empty: none
+  std::string json;  // file for what selftest or compare found; empty: none
 };
 
 /// Reads the command line. Throws UserError, of one line, for whatever is not understood.

@@ -52,15 +52,4 @@ Picture box_filtered(const Picture& picture, int box) {
   return out;
 }
 
-double relative_mse(const Picture& a, const Picture& b) {
-  double squares = 0, sum = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
-    const double difference = static_cast<double>(a.rgb[i]) - b.rgb[i];
-    squares += difference * difference;
-    sum += b.rgb[i];
-  }
-  const double count = static_cast<double>(a.rgb.size()), mean = sum / count;
-  return squares / count / (mean * mean);
-}
-
 }  // namespace causticl

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "compare.hpp"
 #include "image.hpp"
 #include "render.hpp"
 #include "scene.hpp"
@@ -23,8 +24,5 @@ double mean_luminance(const Picture& picture);
 
 /// A picture of the means of box x box pixels; what does not fill a box at the right and bottom is left out.
 Picture box_filtered(const Picture& picture, int box);
-
-/// mean((a - b)^2) / mean(b)^2 over all channels.
-double relative_mse(const Picture& a, const Picture& b);
 
 }  // namespace causticl

@@ -1,0 +1,37 @@
+// How far a picture is from a reference, in numbers and as a map.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image.hpp"
+
+namespace causticl {
+
+struct Comparison {
+  double mean = 0, reference_mean = 0;  // over all pixels and channels
+  double mse = 0, rmse = 0;             // of the linear values
+  double relative_mse = 0;              // mse over the square of the reference's mean
+  double relative_rmse = 0;
+  double flip = 0;                 // mean FLIP
+  std::vector<float> flip_pixels;  // of each pixel
+};
+
+/// mean((a - b)^2) over all channels, over the square of b's mean.
+double relative_mse(const Picture& a, const Picture& b);
+
+/// Compares two pictures of one size. Pixels that are not finite in either count as infinitely wrong.
+Comparison compare_pictures(const Picture& picture, const Picture& reference);
+
+/// Reads any picture that `render` writes: .pfm, .exr, and .png through the inverse of its tone curve. Throws
+/// UserError.
+Picture read_rendered(const std::string& file);
+
+/// The table of `causticl compare`.
+std::string comparison_table(const Comparison& comparison);
+std::string comparison_json(const Comparison& comparison);
+
+/// FLIP as colours (magma: black is alike, light yellow far off), as linear RGB for write_picture.
+Picture error_map(const Comparison& comparison, int width, int height);
+
+}  // namespace causticl

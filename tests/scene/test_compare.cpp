@@ -1,0 +1,89 @@
+// The numbers of `causticl compare`.
+#include "compare.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "flip.hpp"
+#include "temporary_folder.hpp"
+
+using namespace causticl;
+
+namespace {
+
+template <typename Color>
+Picture picture_of(int width, int height, const Color& color) {
+  Picture picture{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) picture.rgb.push_back(static_cast<float>(color(x, y, c)));
+  return picture;
+}
+
+Picture uniform(double red, double green, double blue) {
+  return picture_of(40, 30, [=](int, int, int c) { return c == 0 ? red : c == 1 ? green : blue; });
+}
+
+double waves(int x, int y, int c) {
+  return c == 0   ? 0.45 + 0.45 * std::sin(x / 7.0)
+         : c == 1 ? 0.45 + 0.45 * std::cos(y / 5.0)
+                  : (x / 8 + y / 8) % 2 * 0.72;
+}
+
+double disturbed_waves(int x, int y, int c) {
+  return waves(x, y, c) * 0.9 + 0.04 + 0.04 * std::sin(12.9898 * x + 78.233 * y) +
+         (std::hypot(x - 32, y - 24) < 6 ? 0.3 : 0);
+}
+
+}  // namespace
+
+TEST_CASE("FLIP is that of its authors' program") {
+  const Picture reference = picture_of(64, 48, waves), test = picture_of(64, 48, disturbed_waves);
+  const Comparison comparison = compare_pictures(test, reference);
+  // Values of flip-evaluator 1.7 for the same pictures, encoded with power 1/2.2.
+  CHECK(comparison.flip == Approx(0.232934).epsilon(1e-4));
+  const auto at = [&](int row, int column) {
+    return comparison.flip_pixels[static_cast<std::size_t>(row * 64 + column)];
+  };
+  CHECK(at(24, 32) == Approx(0.677621).epsilon(1e-3));
+  CHECK(at(0, 0) == Approx(0.378600).epsilon(1e-3));
+  CHECK(at(10, 50) == Approx(0.170761).epsilon(1e-3));
+  CHECK(at(40, 20) == Approx(0.104937).epsilon(1e-3));
+}
+
+TEST_CASE("FLIP is 0 for a picture and itself, 1 for green and blue") {
+  const Picture picture = picture_of(30, 20, waves);
+  for (const float value : flip_map(picture, picture)) CHECK(value == 0);
+  for (const float value : flip_map(uniform(0, 1, 0), uniform(0, 0, 1)))
+    CHECK(value == Approx(1).margin(1e-3));
+}
+
+TEST_CASE("means and squares are those of the linear values") {
+  const Comparison comparison = compare_pictures(uniform(0.5, 0.5, 0.8), uniform(0.5, 0.5, 0.5));
+  CHECK(comparison.mean == Approx(0.6));
+  CHECK(comparison.reference_mean == Approx(0.5));
+  CHECK(comparison.mse == Approx(0.03));
+  CHECK(comparison.rmse == Approx(std::sqrt(0.03)));
+  CHECK(comparison.relative_mse == Approx(0.12));
+  CHECK(comparison.relative_rmse == Approx(std::sqrt(0.12)));
+}
+
+TEST_CASE("a PNG is compared by the values that it was made of") {
+  const TemporaryFolder folder;
+  const Picture picture = picture_of(16, 8, waves);
+  write_picture(folder.path("a.png"), picture, {});
+  const Picture back = read_rendered(folder.path("a.png"));
+  REQUIRE(back.rgb.size() == picture.rgb.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < back.rgb.size(); ++i)
+    worst = std::max(worst, std::fabs(static_cast<double>(back.rgb[i]) - picture.rgb[i]));
+  CHECK(worst < 0.006);  // half of one of 255 steps, 2.2 times as steep where it is bright
+}
+
+TEST_CASE("the map shows what is alike as black and what differs as bright") {
+  const Picture reference = uniform(0.2, 0.2, 0.2);
+  const Picture same = error_map(compare_pictures(reference, reference), 40, 30);
+  const Picture far = error_map(compare_pictures(uniform(0, 1, 0), uniform(0, 0, 1)), 40, 30);
+  CHECK(same.rgb[0] + same.rgb[1] + same.rgb[2] < 0.01f);
+  CHECK(far.rgb[0] + far.rgb[1] + far.rgb[2] > 2);
+}
