@@ -23,12 +23,14 @@
 #define CURVE_GROUP 32u
 #define CURVE_SPAN 24u
 
-// In unit space, whose coordinates are of order 1:
+// In unit space, whose coordinates are of order 1. The spans' coefficients are floats in every build, so that two
+// spans meet only up to their rounding: these bounds stay the same in double, but for how far Newton's iteration goes.
 #define BEZIER_APART ((real)2.4e-7)       // arcs farther apart than this do not touch: rounding of a coordinate
 #define BEZIER_COINCIDENT ((real)4.8e-7)  // arcs nowhere farther apart than this do
 #define BEZIER_ERROR ((real)1.9e-6)       // offset of spawned rays, above both
 #define BEZIER_OVERLAP ((real)2e-6)       // arcs reach beyond their ends by at least this, so that joints do not leak
 #define BEZIER_STRAIGHT ((real)2e-5)      // transversal arcs as short as this are their chords
+#define BEZIER_CONVERGED (sizeof(real) > sizeof(float) ? (real)4e-9 : (real)1e-4)  // its square is under rounding
 #define BEZIER_LEVELS 15u                 // halvings of a span
 #define BEZIER_STEPS 1000u                // pairs of arcs looked at for one span
 
@@ -149,7 +151,7 @@ INLINE void bezier_span_intersect(global const float *span, Ray ray, real t_firs
             if (!(w > w0 - reach_w && w < w1 + reach_w && t > t0 - reach_t && t < t1 + reach_t)) break;
             if (dot(c.zw, chord) < least_advance) break;
             real speed = fabs(c.z) + fabs(c.w);
-            if (fabs(dw) * speed + fabs(dt) < (real)1e-4) {
+            if (fabs(dw) * speed + fabs(dt) < BEZIER_CONVERGED) {
               bool within = w >= w0 && w <= w1 && t >= t0 && t <= t1;
               if ((w0 - w) * speed <= overlap_low && (w - w1) * speed <= overlap_high && t >= t0 - overlap && t <= t1 + overlap &&
                   t > 0 && t < *t_best) {
@@ -216,8 +218,8 @@ INLINE void bezier_span_intersect(global const float *span, Ray ray, real t_firs
 }
 
 // One bit for each true lane of a comparison.
-INLINE uint bezier_lane_bits(int8 lanes) {
-  int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+INLINE uint bezier_lane_bits(mask8 lanes) {
+  int8 bits = mask_lanes(lanes) & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
   int4 four = bits.lo | bits.hi;
   int2 two = four.lo | four.hi;
   return (uint)(two.x | two.y);

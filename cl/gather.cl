@@ -14,9 +14,10 @@ INLINE ulong sum_of_lanes(uint8 v) {
 }
 
 // Adds the photons sorted[begin, end) within sqrt(radius2) of `point` that landed on the same side.
-INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uint end, float3 point, float3 normal,
-                         float radius2, Gathered *sum) {
-  global const float *xs = (global const float *)sorted;
+INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uint end, real3 point, float3 normal,
+                         real radius2, Gathered *sum) {
+  global const real *xs = (global const real *)sorted;
+  global const uint *words = photon_words(sorted, stride);
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   float3 n = normal * (1.0f / 127.0f);
   while (begin < end) {
@@ -25,18 +26,19 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
     uint8 red = 0, green = 0, blue = 0;
     int8 count = 0;
     for (uint i = begin; i < stop; i += 8) {
-      float8 dx = vload8(0, xs + i) - point.x;
-      float8 dy = vload8(0, xs + stride + i) - point.y;
-      float8 dz = vload8(0, xs + 2 * stride + i) - point.z;
-      int8 packed = as_int8(vload8(0, sorted + 3 * stride + i));
+      real8 dx = vload8(0, xs + i) - point.x;
+      real8 dy = vload8(0, xs + stride + i) - point.y;
+      real8 dz = vload8(0, xs + 2 * stride + i) - point.z;
+      int8 packed = as_int8(vload8(0, words + i));
       float8 facing = n.x * convert_float8(packed << 24 >> 24) + n.y * convert_float8(packed << 16 >> 24) +
                       n.z * convert_float8(packed << 8 >> 24);
-      int8 inside = (dx * dx + dy * dy + dz * dz <= radius2) & (facing > GATHER_NORMAL_COSINE) & (lane < (uint8)(stop - i));
+      int8 inside = mask_lanes(dx * dx + dy * dy + dz * dz <= radius2) & (facing > GATHER_NORMAL_COSINE) &
+                    (lane < (uint8)(stop - i));
       uint8 keep = as_uint8(inside);
-      uint8 red_green = vload8(0, sorted + 4 * stride + i) & keep;
+      uint8 red_green = vload8(0, words + stride + i) & keep;
       red += red_green & 0xffffu;
       green += red_green >> 16;
-      blue += vload8(0, sorted + 5 * stride + i) & keep;
+      blue += vload8(0, words + 2 * stride + i) & keep;
       count -= inside;
     }
     sum->red += sum_of_lanes(red);
@@ -49,8 +51,8 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
 
 // The cubes along one axis that can hold a photon within `radius` of x: *first bucket and their number, at
 // most n. The interval is widened by the rounding of its ends.
-INLINE uint gather_window(float x, float radius, float origin, float inverse_cell, uint n, uint *first) {
-  float reach = radius * 1.000001f + fabs(x) * 2.4e-7f;
+INLINE uint gather_window(real x, real radius, float origin, float inverse_cell, uint n, uint *first) {
+  real reach = radius * (real)1.000001 + fabs(x) * (real)2.4e-7;
   int low = grid_coordinate(x - reach, origin, inverse_cell), high = grid_coordinate(x + reach, origin, inverse_cell);
   uint span = (uint)high - (uint)low;
   *first = grid_wrap(low, n);
@@ -59,10 +61,10 @@ INLINE uint gather_window(float x, float radius, float origin, float inverse_cel
 
 // Sums over all photons within sqrt(radius2) of `point`. Each bucket is visited once: a window of at most n
 // cubes along an axis of n buckets has no two cubes in one bucket.
-static Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, float3 point, float3 normal,
-                       float radius2) {
+static Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
+                       real radius2) {
   Gathered sum = {0, 0, 0, 0};
-  float radius = sqrt(radius2);
+  real radius = sqrt(radius2);
   uint stride = photon_stride(grid.photon_count);
   uint i0, j0, k0;
   uint ni = gather_window(point.x, radius, grid.origin.x, grid.origin.w, grid.nx, &i0);

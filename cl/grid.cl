@@ -4,7 +4,7 @@
 
 // The cube that holds coordinate x along one axis. Both the sort and the gather call this, and it must round
 // alike in both: hence no contraction, and one function.
-INLINE int grid_coordinate(float x, float origin, float inverse_cell) {
+INLINE int grid_coordinate(real x, float origin, float inverse_cell) {
   return convert_int_sat_rtn((x - origin) * inverse_cell);
 }
 
@@ -14,7 +14,7 @@ INLINE uint grid_wrap(int x, uint n) {
   return (uint)(r < 0 ? r + (int)n : r);
 }
 
-INLINE uint grid_bucket(Grid grid, float3 p) {
+INLINE uint grid_bucket(Grid grid, real3 p) {
   uint i = grid_wrap(grid_coordinate(p.x, grid.origin.x, grid.origin.w), grid.nx);
   uint j = grid_wrap(grid_coordinate(p.y, grid.origin.y, grid.origin.w), grid.ny);
   uint k = grid_wrap(grid_coordinate(p.z, grid.origin.z, grid.origin.w), grid.nz);
@@ -32,5 +32,9 @@ INLINE float3 normal_unpack(uint packed) {
   return convert_float3(q) * (1.0f / 127.0f);
 }
 
-// Distance between the six arrays of the sorted photons: room to read eight at a time past the last.
+// The sorted photons are six arrays: positions as real x, y, z, then words of normal, flux_rg, flux_b. The distance
+// between two of them leaves room to read eight at a time past the last.
 INLINE uint photon_stride(uint photon_count) { return (photon_count + 15u) & ~7u; }
+INLINE global const uint *photon_words(global const uint *sorted, uint stride) {
+  return (global const uint *)((global const real *)sorted + 3 * stride);
+}

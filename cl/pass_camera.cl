@@ -45,8 +45,8 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
                                  &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
       point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
-      vstore3(convert_float3(surface.position), 0, point.position);
-      vstore3(convert_float3(weight), 0, point.weight);
+      vstore3(surface.position, 0, point.position);
+      vstore3(weight, 0, point.weight);
       break;
     }
 
@@ -57,7 +57,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }
-  vstore3(convert_float3(radiance), 0, point.radiance);
+  vstore3(radiance, 0, point.radiance);
   visible_points[index] = point;
   atomic_add(&counters->rays, rays);
 }

@@ -26,13 +26,13 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   if (i >= params.pixel_count) return;
   uint index = params.first_pixel + i;
   SppmPixel pixel = pixels[index];
-  float radius2 = params.radius2 > 0 ? params.radius2 : pixel.radius2_hi;
+  real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0);
   uint found = 0;
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
-    radiance += convert_real3(vload3(0, point.radiance));
-    real3 weight = convert_real3(vload3(0, point.weight));
+    radiance += vload3(0, point.radiance);
+    real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
     Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);

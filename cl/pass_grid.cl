@@ -4,7 +4,7 @@
 // Buckets that one work-item of the running sum takes.
 #define SCAN_SEGMENT 256u
 
-INLINE float3 photon_position(global const Photon *photon) { return vload3(0, photon->position); }
+INLINE real3 photon_position(global const Photon *photon) { return vload3(0, photon->position); }
 
 // counts[b] = photons in bucket b; must be zero before.
 kernel void count_photons(global const Photon *photons, volatile global uint *counts, Grid grid) {
@@ -53,6 +53,10 @@ kernel void move_photons(global const Photon *photons, volatile global uint *cur
   if (i >= grid.photon_count) return;
   uint slot = atomic_inc(cursors + grid_bucket(grid, photon_position(photons + i)));
   uint stride = photon_stride(grid.photon_count);
-  global const uint *words = (global const uint *)(photons + i);
-  for (uint word = 0; word < PHOTON_WORDS; ++word) sorted[word * stride + slot] = words[word];
+  global real *position = (global real *)sorted + slot;
+  global uint *words = (global uint *)photon_words(sorted, stride) + slot;
+  for (uint axis = 0; axis < 3; ++axis) position[axis * stride] = photons[i].position[axis];
+  words[0] = photons[i].normal;
+  words[stride] = photons[i].flux_rg;
+  words[2 * stride] = photons[i].flux_b;
 }

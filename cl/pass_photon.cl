@@ -58,7 +58,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
           if (slot < params.photon_capacity) {
             bool front = dot(surface.geometric_normal, ray.direction) < 0;
             global Photon *photon = photons + slot;
-            vstore3(convert_float3(surface.position), 0, photon->position);
+            vstore3(surface.position, 0, photon->position);
             photon->normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
             photon->flux_rg = r | g << 16;
             photon->flux_b = b;

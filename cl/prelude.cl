@@ -4,8 +4,10 @@
 // and compensated sums rely on identical rounding. Fused operations are written as fma() where wanted.
 #pragma OPENCL FP_CONTRACT OFF
 
-// `real` is the type of all light-transport arithmetic; buffers hold float. A double-precision build of the
-// same sources defines CAUSTICL_DOUBLE.
+// `real` is the type of all light-transport arithmetic, and of what a pass hands to the next. The scene, scalars
+// of a launch and the film are floats, so that a double-precision build of the same sources, which defines
+// CAUSTICL_DOUBLE, renders the same scene to the bit. Random numbers have 24 bits in both: the same seed draws the
+// same paths, and what differs between two pictures is what rounding did.
 #ifdef CAUSTICL_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double real;
@@ -13,7 +15,10 @@ typedef double2 real2;
 typedef double3 real3;
 typedef double4 real4;
 typedef double8 real8;
+typedef long8 mask8;  // what comparing two real8 gives
+#define convert_real2 convert_double2
 #define convert_real3 convert_double3
+#define convert_real4 convert_double4
 #define convert_real8 convert_double8
 #define REAL_EPSILON 1.1102230246251565e-16
 #define REAL_MAX 1.7976931348623157e308
@@ -23,7 +28,10 @@ typedef float2 real2;
 typedef float3 real3;
 typedef float4 real4;
 typedef float8 real8;
+typedef int8 mask8;
+#define convert_real2 convert_float2
 #define convert_real3 convert_float3
+#define convert_real4 convert_float4
 #define convert_real8 convert_float8
 #define REAL_EPSILON 5.9604644775390625e-8f  // unit roundoff, 2^-24
 #define REAL_MAX FLT_MAX
@@ -42,6 +50,18 @@ typedef float8 real8;
 
 // Bound of the relative error of n chained roundings (Higham): n u / (1 - n u).
 #define GAMMA(n) ((n) * REAL_EPSILON / (1 - (n) * REAL_EPSILON))
+
+// A tolerance that stands for rounding, by its value in the float build: as many roundings in double.
+#define ROUNDING(tolerance) ((real)(tolerance) * (REAL_EPSILON / (real)5.9604644775390625e-8))
+
+// The lanes of a comparison of two real8, as those of two float8 are.
+INLINE int8 mask_lanes(mask8 m) {
+#ifdef CAUSTICL_DOUBLE
+  return convert_int8(m);
+#else
+  return m;
+#endif
+}
 
 INLINE real max_component(real3 v) { return max(v.x, max(v.y, v.z)); }
 // Rows of an affine map applied to a point and to a direction.

@@ -25,11 +25,7 @@ INLINE uint4 pcg4d(uint4 v) {
 // Four independent uniform numbers in [0, 1) for a dimension of dims.h. 24 bits each, so 1 never appears.
 INLINE real4 random4(RandomStream stream, uint dimension) {
   uint4 bits = pcg4d((uint4)(stream.path, stream.pass, dimension, stream.seed));
-#ifdef CAUSTICL_DOUBLE
-  return convert_double4(bits >> 8u) * 5.9604644775390625e-8;
-#else
-  return convert_float4(bits >> 8u) * 5.9604644775390625e-8f;
-#endif
+  return convert_real4(bits >> 8u) * (real)5.9604644775390625e-8;
 }
 
 // The same for the vertex with index `depth` (from 0) of a path.

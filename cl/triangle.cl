@@ -8,12 +8,6 @@
 #include "ray.cl"
 #include "types.h"
 
-#ifdef CAUSTICL_DOUBLE
-typedef long8 mask8;
-#else
-typedef int8 mask8;
-#endif
-
 // The ray in the order of axes that the shear wants: z is the axis along which the direction is largest.
 typedef struct {
   size_t x, y, z;  // offsets of the axes' rows in a block's vertex, in floats
@@ -51,11 +45,7 @@ INLINE uint lane_bits(int8 m) {
 #endif
 }
 
-#ifdef CAUSTICL_DOUBLE
-INLINE bool any_lane(mask8 m) { return lane_bits(convert_int8(m)) != 0; }
-#else
-INLINE bool any_lane(mask8 m) { return lane_bits(m) != 0; }
-#endif
+INLINE bool any_lane(mask8 m) { return lane_bits(mask_lanes(m)) != 0; }
 
 INLINE uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
@@ -127,11 +117,7 @@ INLINE bool block_closest(global const TriangleBlock *blocks, uint index, Sheare
   if (!block_intersect(blocks + index, ray, hit->t, &t, &weight_1, &weight_2)) return false;
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   real nearest = min_lane(t);
-#ifdef CAUSTICL_DOUBLE
-  int lane = min_lane_int(select((int8)8, lanes, convert_int8(t == nearest)));
-#else
-  int lane = min_lane_int(select((int8)8, lanes, t == nearest));
-#endif
+  int lane = min_lane_int(select((int8)8, lanes, mask_lanes(t == nearest)));
   real weights[16];
   vstore8(weight_1, 0, weights);
   vstore8(weight_2, 1, weights);
@@ -189,10 +175,6 @@ INLINE void triangle_surface(global const TriangleBlock *blocks, global const Tr
       surface->shading_normal = dot(n, surface->geometric_normal) < 0 ? -n : n;
     }
   }
-#ifdef CAUSTICL_DOUBLE
-  surface->uv = weight_0 * convert_double2(attribute->uv[0]) + hit.u * convert_double2(attribute->uv[1]) +
-                hit.v * convert_double2(attribute->uv[2]);
-#else
-  surface->uv = weight_0 * attribute->uv[0] + hit.u * attribute->uv[1] + hit.v * attribute->uv[2];
-#endif
+  surface->uv = weight_0 * convert_real2(attribute->uv[0]) + hit.u * convert_real2(attribute->uv[1]) +
+                hit.v * convert_real2(attribute->uv[2]);
 }

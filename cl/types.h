@@ -1,12 +1,13 @@
 // Every struct that the host and the kernels share, compiled by C++20 and by OpenCL C alike.
 //
-// Only scalars, float2/float4 and uint2/uint4 appear here: float3, bool, size_t, pointers and enums have
+// Only scalars, float2/float4 and uint2/uint4 appear here, and `real` in what passes hand on: float3, bool, size_t, pointers and enums have
 // sizes that differ between the two languages. CHECK_SIZE stops either compiler when a layout drifts, and a
 // test compares the offset of every field as the device sees it with offsetof on the host.
 #ifndef CAUSTICL_TYPES_H
 #define CAUSTICL_TYPES_H
 
 #ifdef __OPENCL_VERSION__
+#include "prelude.cl"
 #define CHECK_SIZE(type, size) typedef char type##_has_size_##size[(sizeof(type) == (size)) ? 1 : -1]
 #else
 #include <cstdint>
@@ -14,6 +15,8 @@ namespace causticl {
 using uint = std::uint32_t;
 using ushort = std::uint16_t;
 using ulong = std::uint64_t;
+/// As in the float build, whose records the host knows; in the double build they take up to twice the bytes.
+using real = float;
 struct alignas(8) float2 {
   float x = 0, y = 0;
 };
@@ -195,25 +198,31 @@ CHECK_SIZE(FilmPixel, 28);
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0.
 typedef struct {
-  float position[3];
+  real position[3];
   uint normal;         // normal_pack, facing the camera path
-  float weight[3];
-  float radiance[3];   // emission seen by the path and direct light by shadow rays
+  real weight[3];
+  real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;
-CHECK_SIZE(VisiblePoint, 40);
 
 // A photon that landed on a diffuse surface, as traced. Flux is quantised with unbiased dithering in units of
 // Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order. Sixteen bits hold 16
 // times the flux of an emitted photon, which is as far as the factors of shading normals go.
 #define PHOTON_FLUX_UNIT 4096.0f
 typedef struct {
-  float position[3];
+  real position[3];
   uint normal;         // normal_pack, facing the side that the photon came from
   uint flux_rg;        // red in the low 16 bits, green in the high ones
   uint flux_b;
 } Photon;
-CHECK_SIZE(Photon, 24);
 #define PHOTON_WORDS 6u
+
+#ifdef CAUSTICL_DOUBLE
+CHECK_SIZE(VisiblePoint, 80);
+CHECK_SIZE(Photon, 40);
+#else
+CHECK_SIZE(VisiblePoint, 40);
+CHECK_SIZE(Photon, 24);
+#endif
 
 // The grid of photons: space is cut into cubes of `cell` units; cube (i, j, k) owns bucket
 // (i mod nx, j mod ny, k mod nz). A box of at most n cubes along each axis meets each bucket once, so nothing

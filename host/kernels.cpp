@@ -36,10 +36,17 @@ void dump(const std::string& folder, const std::string& pass, const std::string&
 
 }  // namespace
 
+const char* name_of(Precision precision) { return precision == Precision::float64 ? "double" : "float"; }
+
 cl::Program build_pass(Device& device, const std::string& pass, const KernelOptions& options) {
+  const bool in_double = options.precision == Precision::float64;
+  if (in_double && !device.info().fp64)
+    throw DeviceError("--precision double: device " + device.info().name +
+                      " has no double precision (cl_khr_fp64); use --precision float or another --device");
   char define[64];
   std::snprintf(define, sizeof define, "#define EFFECTS 0x%xu\n", options.effects & effects_read.at(pass));
-  const std::string source = define + flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
+  const std::string source = define + std::string(in_double ? "#define CAUSTICL_DOUBLE\n" : "") +
+                             flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
   if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);
   return device.build(source);
 }

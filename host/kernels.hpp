@@ -8,15 +8,27 @@
 
 namespace causticl {
 
+/// The type of the kernels' arithmetic, `real` of cl/prelude.cl.
+enum class Precision { float32, float64 };
+
+/// "float" or "double", as --precision takes it.
+const char* name_of(Precision precision);
+
+/// How many times the bytes that types.h gives them on the host the records that passes hand on (Photon,
+/// VisiblePoint) take at most.
+constexpr std::size_t record_scale(Precision precision) { return precision == Precision::float64 ? 2 : 1; }
+
 /// Where kernel sources come from and where a copy of what was built goes.
 struct KernelOptions {
-  unsigned effects = 0;      // EFFECT_* bits of the scene
+  unsigned effects = 0;  // EFFECT_* bits of the scene
+  Precision precision = Precision::float32;
   std::string kernel_dir;    // read cl/ live from here; empty: the embedded sources
   std::string dump_kernels;  // write each flattened source here; empty: do not
 };
 
 /// Builds the program of `pass` ("photon" for cl/pass_photon.cl), masked to the effects that this pass reads,
-/// so that passes which read none are the same for every scene.
+/// so that passes which read none are the same for every scene. Throws DeviceError where the device has no
+/// arithmetic of the precision asked for.
 cl::Program build_pass(Device& device, const std::string& pass, const KernelOptions& options);
 
 }  // namespace causticl

@@ -65,6 +65,7 @@ const auto is_override = [](const std::string& text) {
   return equals != std::string::npos && equals > 0;
 };
 const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
+const auto is_precision = [](const std::string& text) { return text == "float" || text == "double"; };
 const auto is_folder = [](const std::string& text) {
   std::error_code unreadable;
   return std::filesystem::is_directory(text, unreadable);
@@ -72,7 +73,7 @@ const auto is_folder = [](const std::string& text) {
 
 /// What CLI11 leaves as text.
 struct Texts {
-  std::string integrator, size;
+  std::string integrator, size, precision;
   std::vector<std::string> overrides;
 };
 
@@ -118,6 +119,15 @@ void add_output_options(CLI::App& app, Options& options) {
   app.add_option("--seed", options.seed, "1 by default; the same seed gives the same image to the bit")
       ->check(whole_number(0, 4294967295))
       ->type_name("N");
+}
+
+/// How exactly it computes.
+void add_precision_option(CLI::App& app, Texts& texts) {
+  app.add_option("--precision", texts.precision,
+                 "of the kernels' arithmetic; default: float. double needs a\n"
+                 "device with fp64 and is slower: it is for measuring float")
+      ->check(expect("float or double", is_precision))
+      ->type_name("float|double");
 }
 
 /// What it runs on.
@@ -224,6 +234,7 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
   add_scene_options(render, options, texts);
   add_output_options(render, options);
+  add_precision_option(render, texts);
   add_device_options(render, options);
   add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
@@ -262,6 +273,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.selftest.kernel_dir = options.kernel_dir;
   if (!texts.integrator.empty())
     options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
+  if (texts.precision == "double") options.precision = Precision::float64;
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
   for (const auto& text : texts.overrides) {
     const auto equals = text.find('=');
@@ -312,6 +324,7 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   result.outputs = outputs;
   result.time_limit = options.time_limit;
   result.seed = options.seed;
+  result.precision = options.precision;
   result.threads = options.threads;
   result.kernel_dir = options.kernel_dir;
   result.dump_kernels = options.dump_kernels;

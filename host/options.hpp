@@ -26,6 +26,7 @@ struct Options {
   std::optional<std::int64_t> photons;
   std::optional<double> time_limit;  // seconds
   std::uint32_t seed = 1;
+  Precision precision = Precision::float32;
   std::string device;    // as find_device takes it
   unsigned threads = 0;  // 0: all
   std::string kernel_dir, dump_kernels;

@@ -27,6 +27,7 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, const KernelOptio
       scan_segments_(grid_program_, "scan_segments"),
       move_photons_(grid_program_, "move_photons"),
       first_argument_(set_scene_arguments(trace_photons_, scene)),
+      photon_bytes_(sizeof(Photon) * record_scale(kernels.precision)),
       counters_(counters) {
   reserve_buckets(1);
   sorted_ = device_.buffer(0, "sorted photons");
@@ -64,9 +65,9 @@ bool PhotonMap::reserve_photons(std::uint64_t wanted) {
   if (wanted > 0xfffffff0u / PHOTON_WORDS) return false;
   photons_ = {};  // first, so that the device need not hold both
   try {
-    photons_ = device_.buffer(wanted * sizeof(Photon), "photons");
+    photons_ = device_.buffer(wanted * photon_bytes_, "photons");
   } catch (const DeviceError&) {
-    if (capacity_ > 0) photons_ = device_.buffer(capacity_ * sizeof(Photon), "photons");
+    if (capacity_ > 0) photons_ = device_.buffer(capacity_ * photon_bytes_, "photons");
     return false;
   }
   capacity_ = static_cast<std::uint32_t>(wanted);
@@ -98,7 +99,7 @@ void PhotonMap::sort(double cell) {
   const std::size_t stride = (static_cast<std::size_t>(stored_) + 15) / 8 * 8;  // photon_stride of cl/grid.cl
   if (stride > sorted_capacity_) {
     sorted_ = {};
-    sorted_ = device_.buffer(stride * sizeof(Photon), "sorted photons");
+    sorted_ = device_.buffer(stride * photon_bytes_, "sorted photons");
     sorted_capacity_ = stride;
   }
   device_.clear(cursors_, buckets * sizeof(cl_uint));

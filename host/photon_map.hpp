@@ -34,6 +34,7 @@ class PhotonMap {
   cl::Program photon_program_, grid_program_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_;
+  std::size_t photon_bytes_;  // of one record, traced or sorted
   cl::Buffer counters_, photons_, sorted_, cursors_, sums_, starts_;
   std::uint32_t capacity_ = 0, stored_ = 0;
   std::uint64_t dropped_ = 0;

@@ -30,6 +30,7 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
                     {"passes", std::to_string(statistics.passes)},
                     {"photons", std::to_string(statistics.photons)},
                     {"device", statistics.device},
+                    {"precision", name_of(statistics.precision)},
                     {"seconds", std::to_string(statistics.seconds)},
                     {"causticl_version", CAUSTICL_VERSION}};
   for (const auto& kind : fault_kinds) metadata[kind.key] = std::to_string(statistics.faults.*kind.count);
@@ -72,9 +73,11 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   const bool sppm = scene.renderer.integrator == Integrator::sppm;
   Statistics statistics;
   statistics.device = device.info().name;
+  statistics.precision = options.precision;
 
   const Effects effects = find_effects(scene);
-  const KernelOptions kernels{effect_bits(effects), options.kernel_dir, options.dump_kernels};
+  const KernelOptions kernels{effect_bits(effects), options.precision, options.kernel_dir,
+                              options.dump_kernels};
   const DeviceScene device_scene = upload_scene(scene, device, options.threads);
   Film film(device, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;

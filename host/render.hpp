@@ -11,6 +11,7 @@
 #include "device.hpp"
 #include "faults.hpp"
 #include "image.hpp"
+#include "kernels.hpp"
 #include "scene.hpp"
 
 namespace causticl {
@@ -20,6 +21,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;  // files, by extension; rewritten at checkpoints
   std::optional<double> time_limit;  // seconds from the start of render_scene
   std::uint32_t seed = 1;
+  Precision precision = Precision::float32;
   unsigned threads = 0;      // for the tree; 0: all of the machine
   std::string kernel_dir;    // --kernel-dir: read cl/ live; empty: the embedded sources
   std::string dump_kernels;  // --dump-kernels: folder that receives what was built; empty: none
@@ -38,6 +40,7 @@ enum class StopReason { passes, time, interrupted };
 /// What a finished render reports (`--stats`, `--stats-json`, EXR metadata).
 struct Statistics {
   std::string device;
+  Precision precision = Precision::float32;
   StopReason stop = StopReason::passes;
   double seconds = 0;             // all of render_scene
   double first_pass_seconds = 0;  // from the start to the launch of the first pass

@@ -59,6 +59,7 @@ std::string byte_size(double bytes) {
 std::string statistics_table(const Statistics& s) {
   std::string text;
   append(text, "  %-28s %s\n", "device", s.device.c_str());
+  append(text, "  %-28s %s\n", "precision", name_of(s.precision));
   append(text, "  %-28s %llu (stopped by: %s)\n", "passes", Number(s.passes), name(s.stop));
   append(text, "  %-28s %.3f s\n", "time", s.seconds);
   append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
@@ -95,6 +96,7 @@ std::string statistics_json(const Statistics& s) {
   }
   nlohmann::ordered_json object = {{"version", CAUSTICL_VERSION},
                                    {"device", s.device},
+                                   {"precision", name_of(s.precision)},
                                    {"stop", name(s.stop)},
                                    {"seconds", s.seconds},
                                    {"first_pass_seconds", s.first_pass_seconds},

@@ -38,7 +38,8 @@ struct CheckContext {
   bool replayed = false;                               // set by a check that took them
 
   /// Builds a check's own OpenCL text; its #include "name.cl" lines take the shipped kernel files. `effects`
-  /// are the bits of effects.h that HAS() sees.
+  /// are the bits of effects.h that HAS() sees; `options` go to the compiler: -DCAUSTICL_DOUBLE makes the
+  /// double build of the same kernels, where device.info().fp64 says that there is one.
   cl::Program program(const std::string& text, unsigned effects = ~0u, const std::string& options = "") const;
 };
 

@@ -24,6 +24,7 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
       count_around_(gather_program_, "count_around"),
       start_pixels_(gather_program_, "start_pixels"),
       first_argument_(set_scene_arguments(trace_camera_, device_scene)),
+      visible_point_bytes_(sizeof(VisiblePoint) * record_scale(kernels.precision)),
       smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
@@ -33,7 +34,7 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
   visible_points_ =
-      device_.buffer(chunk_pixels_ * params_.visible_points * sizeof(VisiblePoint), "visible points");
+      device_.buffer(chunk_pixels_ * params_.visible_points * visible_point_bytes_, "visible points");
   pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
   trace_camera_.setArg(first_argument_, visible_points_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
@@ -128,7 +129,7 @@ PassIntegrator::Totals Sppm::finish() {
 }
 
 double Sppm::bytes_per_pixel() const {
-  const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * sizeof(VisiblePoint));
+  const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * visible_point_bytes_);
   return sizeof(SppmPixel) + chunk / static_cast<double>(film_.pixels());
 }
 

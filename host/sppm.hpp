@@ -32,7 +32,7 @@ class Sppm : public PassIntegrator {
   cl::Program camera_program_, gather_program_;
   cl::Kernel trace_camera_, gather_photons_, count_around_, start_pixels_;
   cl_uint first_argument_;
-  std::size_t chunk_pixels_;
+  std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer visible_points_, pixels_;
   CounterTotals totals_;
   std::uint64_t emitted_ = 0;
