@@ -317,16 +317,17 @@ INLINE void bezier_surface(global const Shape *shape, global const float *curves
   real3 p = (real3)(profile.x * scale * radial.x, profile.y * scale + curve[2], profile.x * scale * radial.y);
   surface->position = transform_point(shape->to_world, p);
 
-  // What a spawned ray may be off by when it comes back to local space, brought to the world.
+  // What a spawned ray may be off by when it comes back to local space, brought to the world. The position is by
+  // to_world and the intersection by to_local.
   global const float4 *in = shape->to_local, *out = shape->to_world;
   real3 world = fabs(surface->position);
   real3 local_error = (real3)(dot(fabs(convert_real3(in[0].xyz)), world) + fabs(in[0].w),
                               dot(fabs(convert_real3(in[1].xyz)), world) + fabs(in[1].w),
-                              dot(fabs(convert_real3(in[2].xyz)), world) + fabs(in[2].w)) * GAMMA(8);
-  local_error += BEZIER_ERROR * scale + GAMMA(2) * fabs(curve[2]);
-  surface->error = max_component((real3)(dot(fabs(convert_real3(out[0].xyz)), local_error) + GAMMA(4) * fabs(out[0].w),
-                                         dot(fabs(convert_real3(out[1].xyz)), local_error) + GAMMA(4) * fabs(out[1].w),
-                                         dot(fabs(convert_real3(out[2].xyz)), local_error) + GAMMA(4) * fabs(out[2].w)));
+                              dot(fabs(convert_real3(in[2].xyz)), world) + fabs(in[2].w)) * STORED_GAMMA(8);
+  local_error += BEZIER_ERROR * scale + STORED_GAMMA(2) * fabs(curve[2]);
+  surface->error = max_component((real3)(dot(fabs(convert_real3(out[0].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[0].w),
+                                         dot(fabs(convert_real3(out[1].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[1].w),
+                                         dot(fabs(convert_real3(out[2].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[2].w)));
 
   real2 n = bezier_profile_normal(curve, span, w, profile.zw);
   surface->geometric_normal = surface->shading_normal =

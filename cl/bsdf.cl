@@ -67,7 +67,7 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
 }
 
 // A grazing ray is lifted by this cosine off the surface where rounding might put it on the other side.
-#define GRAZING_COSINE ROUNDING(1e-6)
+#define GRAZING_COSINE ((real)1e-6 * (REAL_EPSILON / STORED_EPSILON))
 
 // A mirror image of d about n, and about the geometric normal where that one would end under the surface.
 INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {

@@ -81,7 +81,7 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
     *normal = normalize(cross(b / max_component(fabs(b)), c / max_component(fabs(c))));
   }
   real3 size = fabs(a) + fabs(b) + fabs(c) + fabs(point);
-  *error = GAMMA(8) * (max_component(size) + emitter->a.w);
+  *error = STORED_GAMMA(8) * (max_component(size) + emitter->a.w);
   return point;
 }
 
@@ -106,7 +106,7 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
       sample.pdf = emitter->probability / (2 * PI * one_minus_cos);
       // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
       real rounding = GAMMA(16) * (max_component(fabs(position)) + max_component(fabs(to_centre)) + radius);
-      sample.margin = ROUNDING(1e-5) * sample.distance + radius * rounding / max(half_chord, rounding);
+      sample.margin = (real)1e-5f * sample.distance + radius * rounding / max(half_chord, rounding);
       sample.weight = radiance / sample.pdf;
       return sample;
     }
@@ -123,7 +123,7 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
   if (emitter->two_sided) cosine = fabs(cosine);
   if (!(cosine > 0)) return sample;
   // An error of the surface's place moves the hit by 1 / cosine times as much.
-  sample.margin = ROUNDING(1e-5) * sample.distance + fmin(4 * error / cosine, (real)0.5f * sample.distance);
+  sample.margin = (real)1e-5f * sample.distance + fmin(4 * error / cosine, (real)0.5f * sample.distance);
   sample.pdf = emitter->probability * area_pdf * distance2 / cosine;
   sample.weight = radiance / sample.pdf;
   return sample;

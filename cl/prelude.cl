@@ -51,8 +51,10 @@ typedef int8 mask8;
 // Bound of the relative error of n chained roundings (Higham): n u / (1 - n u).
 #define GAMMA(n) ((n) * REAL_EPSILON / (1 - (n) * REAL_EPSILON))
 
-// A tolerance that stands for rounding, by its value in the float build: as many roundings in double.
-#define ROUNDING(tolerance) ((real)(tolerance) * (REAL_EPSILON / (real)5.9604644775390625e-8))
+// The same where two forms of one thing meet that the host has rounded to floats each on its own: a map and its
+// inverse, a lamp and the shape that it is. They stay that far apart in double.
+#define STORED_EPSILON ((real)5.9604644775390625e-8)
+#define STORED_GAMMA(n) ((n) * STORED_EPSILON / (1 - (n) * STORED_EPSILON))
 
 // The lanes of a comparison of two real8, as those of two float8 are.
 INLINE int8 mask_lanes(mask8 m) {

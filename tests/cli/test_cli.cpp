@@ -127,6 +127,7 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
       {{"render", "a.json", "--seed", "1", "--seed", "2"}, "--seed: given more than once"},
       {{"render", "a.json", "--threads", "0"}, "--threads: expected a whole number from 1"},
       {{"render", "a.json", "--integrator", "vcm"}, "--integrator: expected sppm or pt, found 'vcm'"},
+      {{"render", "a.json", "--precision", "half"}, "--precision: expected float or double, found 'half'"},
       {{"render", "a.json", "--kernel-dir", "/nonexistent"}, "--kernel-dir: expected an existing folder"},
       {{"render", "a.json", "-D", "radius"},
        "-D: expected key=value, as in renderer.radius=0.1, found 'radius'"},
@@ -257,6 +258,7 @@ TEST_CASE("--stats-json is one object whose numbers agree with the options") {
   CHECK(names_in(folder.path("")) == Words{"cornell_box.png", "stats.json"});
   const auto stats = nlohmann::json::parse(bytes_of(folder.path("stats.json")));
   CHECK_FALSE(stats.at("device").get<std::string>().empty());
+  CHECK(stats.at("precision") == "float");
   CHECK(stats.at("passes") == 3);
   CHECK(stats.at("photons") == 6000);
   CHECK(stats.at("stop") == "passes");

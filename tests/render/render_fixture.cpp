@@ -26,11 +26,12 @@ Scene shipped_scene(const std::string& name, int width, int height) {
   return load_scene(std::string(CAUSTICL_SOURCE_DIR) + "/scenes/" + name, options);
 }
 
-RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed) {
+RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed, Precision precision) {
   scene.renderer.integrator = integrator;
   scene.renderer.passes = scene.renderer.samples = passes;
   RenderOptions options;
   options.seed = seed;
+  options.precision = precision;
   return render_scene(scene, test_device(), options);
 }
 

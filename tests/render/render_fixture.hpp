@@ -17,7 +17,8 @@ Scene scene_from_text(const std::string& json);
 Scene shipped_scene(const std::string& name, int width, int height);
 
 /// Renders with the integrator and `passes` passes (sppm) or samples a pixel (pt), on the test device.
-RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed = 1);
+RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed = 1,
+                         Precision precision = Precision::float32);
 
 /// The mean over all pixels of a picture's luminance.
 double mean_luminance(const Picture& picture);
