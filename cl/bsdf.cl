@@ -30,8 +30,8 @@ INLINE real fresnel_dielectric(real cosine, real eta, real *cosine_t) {
   cosine = clamp(cosine, (real)0, (real)1);
   // eta^2 - sin^2 in a form that cancels nothing: grazing rays and nearly equal indices stay exact.
   real square = (eta - 1) * (eta + 1) + cosine * cosine;
-  *cosine_t = 0;
-  // At grazing incidence between equal indices nothing is reflected.
+  // Between equal indices nothing is reflected or bent, also at grazing incidence, where the square underflows.
+  *cosine_t = eta == 1 ? cosine : 0;
   if (square <= 0) return eta == 1 ? 0 : 1;
   real c = sqrt(square) / eta;
   *cosine_t = fmin(c, (real)1);

@@ -4,13 +4,13 @@
 #define CAUSTICL_DIMS_H
 
 #define DIM_FILM 0u          // position in the pixel (xy), lens (zw)
-#define DIM_EMITTER 1u       // which emitter (x), point on it (yz)
+#define DIM_EMITTER 1u       // which emitter (xw), point on it (yz), side of it (w)
 #define DIM_EMISSION 2u      // direction (xy)
 #define DIM_BOUNCE_FIRST 8u  // first dimension of vertex 0
 #define DIM_BOUNCE_STRIDE 8u
 
 #define DIM_BSDF 0u        // direction (xy), lobe (z), Russian roulette (w)
-#define DIM_LIGHT 1u       // which emitter (x), point on it (yz)
+#define DIM_LIGHT 1u       // which emitter (xw), point on it (yz)
 #define DIM_QUANTISE 2u    // dithering of stored flux (xyz)
 
 #endif

@@ -11,19 +11,18 @@ typedef struct {
   real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself
 } LightSample;
 
-// The first emitter whose cumulative probability exceeds u, and *rest: u rescaled to [0, 1) within it.
-INLINE uint emitter_choose(const Scene *scene, real u, real *rest) {
+// The emitter that owns the number made of all 24 bits of u and the low 23 bits of v: the 24 bits of one random
+// number are too few to choose among a million emitters. The highest bit of v is left to the caller.
+INLINE uint emitter_choose(const Scene *scene, real u, real v) {
+  ulong number = (ulong)(uint)(u * 16777216) << 23 | ((uint)(v * 16777216) & 0x7fffffu);
   uint low = 0, high = scene->emitter_count - 1;
   while (low < high) {
     uint middle = (low + high) / 2;
-    if (u < scene->emitters[middle].cdf)
+    if (number < scene->emitters[middle].cdf)
       high = middle;
     else
       low = middle + 1;
   }
-  real before = low == 0 ? (real)0 : (real)scene->emitters[low - 1].cdf;
-  real width = scene->emitters[low].cdf - before;
-  *rest = width > 0 ? clamp((u - before) / width, (real)0, (real)(1 - 6e-8f)) : (real)0;
   return low;
 }
 
@@ -89,8 +88,7 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
 // its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
 static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
   LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), 0, 0};
-  real rest;
-  global const Emitter *emitter = scene->emitters + emitter_choose(scene, random.x, &rest);
+  global const Emitter *emitter = scene->emitters + emitter_choose(scene, random.x, random.w);
   real3 radiance = convert_real3(emitter->radiance.xyz);
   if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
     real3 to_centre = convert_real3(emitter->a.xyz) - position;
@@ -166,8 +164,7 @@ static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit
 // uniform).
 static Ray photon_emit(const Scene *scene, RandomStream stream, real3 *flux) {
   real4 choice = random4(stream, DIM_EMITTER), direction = random4(stream, DIM_EMISSION);
-  real rest;
-  global const Emitter *emitter = scene->emitters + emitter_choose(scene, choice.x, &rest);
+  global const Emitter *emitter = scene->emitters + emitter_choose(scene, choice.x, choice.w);
   real3 normal, radiance = convert_real3(emitter->radiance.xyz);
   real error, area_pdf;
   real3 point = emitter_point(scene, emitter, choice.yz, &normal, &error, &area_pdf);

@@ -36,7 +36,7 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
     Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);
-    found += sum.count;
+    found = add_sat(found, sum.count);
   }
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   if (found > 0) radiance += reflected * density;

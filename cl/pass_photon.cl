@@ -12,6 +12,9 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   return (uint)clamp(units, (real)0, (real)65535);
 }
 
+// More photons than any buffer holds need not be told apart, and a count that wrapped around would pass for few.
+#define PHOTON_COUNT_LIMIT 0x80000000u
+
 // Traces photon number get_global_id(0) of the pass. Photons are appended in any order; where the buffer is
 // full they are only counted, so that the host can enlarge it and trace the pass again.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
@@ -54,7 +57,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
              b = flux_quantise(flux.z, dither.z, &saturated);
         if (saturated) atomic_inc(&counters->saturated);
         if (isfinite(flux.x + flux.y + flux.z + surface.position.x + surface.position.y + surface.position.z)) {
-          uint slot = atomic_inc(&counters->photons);
+          uint slot = counters->photons < PHOTON_COUNT_LIMIT ? atomic_inc(&counters->photons) : PHOTON_COUNT_LIMIT;
           if (slot < params.photon_capacity) {
             bool front = dot(surface.geometric_normal, ray.direction) < 0;
             global Photon *photon = photons + slot;

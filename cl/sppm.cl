@@ -15,19 +15,24 @@ INLINE float sppm_photons(SppmPixel pixel) { return pixel.photons_high * 4294967
 // equation (7) is the mean over passes of Phi_j / (pi R_j^2 photons per pass), and that sum is the film's.
 INLINE SppmPixel sppm_update(SppmPixel pixel, uint found, float alpha) {
   if (found == 0) return pixel;
-  float m = (float)found, photons = sppm_photons(pixel), total = alpha * photons + m;
+  float m = (float)found, before = sppm_photons(pixel), total = alpha * before + m;
   float share = (1 - alpha) * m / total;
   if (share > 0.5f) {
     // The first passes, alpha small: what remains is the smaller part, so it is what must be rounded.
-    float kept = alpha * (photons + m) / total;
+    float kept = alpha * (before + m) / total;
     pixel.radius2_hi *= kept;
     pixel.radius2_lo *= kept;
   } else {
     sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_lo);
     sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_hi);
   }
-  uint low = pixel.photons_low + found;
-  pixel.photons_high += low < found;
-  pixel.photons_low = low;
+  // Some devices flush what is smaller than the smallest normal number to a radius of zero, which would divide.
+  if (!(pixel.radius2_hi >= FLT_MIN)) {
+    pixel.radius2_hi = FLT_MIN;
+    pixel.radius2_lo = 0;
+  }
+  ulong photons = add_sat(upsample(pixel.photons_high, pixel.photons_low), (ulong)found);
+  pixel.photons_high = (uint)(photons >> 32);
+  pixel.photons_low = (uint)photons;
   return pixel;
 }

@@ -144,17 +144,21 @@ CHECK_SIZE(TriangleAttributes, 40);
 // Steps in t of the table of cumulative area by which points on a revolved curve are drawn.
 #define EMITTER_AREA_STEPS 64u
 
-// One light-emitting primitive. Emitters are chosen with probability proportional to their power's largest
-// channel; `cdf` is the inclusive running sum of those probabilities, the last one exactly 1.
+// Emitters are chosen by a number of this many bits, and own numbers in proportion to their power's largest
+// channel: a running sum in single precision would give small ones a probability that is not what they draw.
+#define EMITTER_CHOICE_BITS 47
+
+// One light-emitting primitive.
 typedef struct {
-  float4 a, b, c;   // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes
-  float4 radiance;  // w: area
-  float cdf, probability;
-  uint type;        // EMITTER_TRIANGLE ...
+  float4 a, b, c;     // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes
+  float4 radiance;    // w: area
+  ulong cdf;          // how many numbers this emitter and all before it own; the last one's are all
+  float probability;  // the share of the numbers that it owns
+  uint type;          // EMITTER_TRIANGLE ...
   uint two_sided;
-  uint shape;       // EMITTER_BEZIER: index into shapes
-  uint first_area;  // EMITTER_BEZIER: first float of its area table in the curve buffer
-  uint unused[2];
+  uint shape;         // EMITTER_BEZIER: index into shapes
+  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer
+  uint unused;
 } Emitter;
 CHECK_SIZE(Emitter, 96);
 
@@ -239,7 +243,7 @@ typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
   uint rays;           // traced, shadow rays included
   uint non_finite;     // samples that were NaN or Inf and were left out
-  uint saturated;      // photons whose flux was above what the record holds
+  uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
   uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
   uint traversal_bound;  // rays whose walk through the tree was cut short
   uint unused[2];

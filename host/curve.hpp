@@ -26,7 +26,7 @@ CurveBounds curve_bounds(const CurvePoints& points);
 
 /// How the local-space area of the revolved surface spreads over equal steps of the curve parameter, for
 /// sampling emission: float 0 is `segments`, float 1 the whole area, and then come `segments` inclusive
-/// running sums divided by it, the last one exactly 1.
+/// running sums divided by it, multiples of 2^-24, the last one exactly 1.
 std::vector<float> curve_area_table(const CurvePoints& points, int segments);
 
 }  // namespace causticl

@@ -269,20 +269,23 @@ class WorldBuilder {
     return make_bounds(low, high);
   }
 
-  /// Probabilities in proportion to power; the last cumulative one is exactly 1.
+  /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
+  /// exactly. Emitters with less than 2^-48 of all power may own none.
   void finish_emitters() {
     const auto power = [](const Emitter& light) {
       return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
              static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
     };
     for (const auto& light : world_.emitters) world_.emitted_power += power(light);
+    constexpr double numbers = static_cast<double>(std::uint64_t{1} << EMITTER_CHOICE_BITS);
     double sum = 0;
+    std::uint64_t before = 0;
     for (auto& light : world_.emitters) {
       sum += power(light);
-      light.probability = static_cast<float>(power(light) / world_.emitted_power);
-      light.cdf = static_cast<float>(sum / world_.emitted_power);
+      light.cdf = static_cast<std::uint64_t>(std::llround(sum / world_.emitted_power * numbers));
+      light.probability = static_cast<float>(static_cast<double>(light.cdf - before) / numbers);
+      before = light.cdf;
     }
-    if (!world_.emitters.empty()) world_.emitters.back().cdf = 1;
   }
 };
 

@@ -5,14 +5,9 @@
 #include <cmath>
 
 #include "device_fixture.hpp"
-#include "vec.hpp"
+#include "vectors.hpp"
 
 namespace causticl {
-
-inline Vec3 to_vec3(float4 v) { return {v.x, v.y, v.z}; }
-inline float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 /// A uniform number that a float holds exactly, in [0, 1), as the kernels draw theirs.
 inline float uniform24(RandomInputs& random) {
@@ -29,17 +24,6 @@ inline Vec3 random_direction(RandomInputs& random) {
   const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * M_PI), r = std::sqrt(1 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
-
-/// Any right-handed orthonormal frame with z along the unit vector `axis`.
-struct Frame {
-  Vec3 x, y, z;
-  explicit Frame(Vec3 axis) : z(axis) {
-    x = normalize(cross(std::fabs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, axis));
-    y = cross(z, x);
-  }
-  Vec3 to_local(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
-  Vec3 to_world(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
-};
 
 /// A direction at `angle` from the unit vector `axis`, at a random turn about it.
 inline Vec3 tilted_direction(RandomInputs& random, Vec3 axis, double angle) {

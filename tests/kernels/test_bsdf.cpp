@@ -1,4 +1,4 @@
-#include "chi_square.hpp"
+#include "chi_square_check.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;

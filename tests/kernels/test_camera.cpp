@@ -1,4 +1,4 @@
-#include "chi_square.hpp"
+#include "chi_square_check.hpp"
 #include "effects.h"
 #include "vector_inputs.hpp"
 

@@ -1,72 +1,26 @@
 #include <cstring>
 
 #include "photon_grid.hpp"
+#include "vector_inputs.hpp"
 
 using namespace causticl;
 
 namespace {
 
-const char* const source = R"(
-#include "pass_grid.cl"
-#include "pass_gather.cl"
-// One gather for each point; w of a point holds its packed normal.
-kernel void gather_points(global const float4 *points, global const uint *starts, global const uint *sorted,
-                          global ulong4 *sums, Grid grid, float radius2, uint count) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  Gathered sum = gather(grid, starts, sorted, points[i].xyz, normal_unpack(as_uint(points[i].w)), radius2);
-  sums[i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
-}
-)";
-
 cl::Program& program() {
-  static cl::Program built = build_test_program(source);
+  static cl::Program built = build_test_program(gather_source);
   return built;
 }
 
-struct Point {
-  float x, y, z;
-  uint normal;
-};
-struct Sums {
-  std::uint64_t red = 0, green = 0, blue = 0, count = 0;
-  bool operator==(const Sums&) const = default;
-};
-
-std::vector<Sums> gather(const std::vector<Point>& points, const std::vector<Photon>& photons,
-                         const Grid& grid, float radius2) {
-  const SortedPhotons map = sort_photons(program(), photons, grid);
-  auto in = test_device().upload(points, "points");
-  auto out = test_device().buffer(points.size() * sizeof(Sums), "sums");
-  cl::Kernel kernel(program(), "gather_points");
-  set_arguments(kernel, in, map.starts, map.sorted, out, grid, radius2, cl_uint(points.size()));
-  test_device().launch(kernel, points.size());
-  return test_device().download<Sums>(out, points.size());
+std::vector<GatherSums> gather(const std::vector<GatherPoint>& points, const std::vector<Photon>& photons,
+                               const Grid& grid, float radius2) {
+  return gather_photons(test_device(), program(), points, photons, grid, radius2);
 }
 
-/// Every photon against every point. The same single-precision comparisons, so that the sums must be equal.
-std::vector<Sums> brute_force(const std::vector<Point>& points, const std::vector<Photon>& photons,
-                              float radius2) {
-  std::vector<Sums> result(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    float n[3];
-    for (int axis = 0; axis < 3; ++axis)
-      n[axis] = static_cast<float>(normal_components(p.normal)[axis]) * (1.0f / 127) * (1.0f / 127);
-    for (const Photon& photon : photons) {
-      const float dx = photon.position[0] - p.x, dy = photon.position[1] - p.y, dz = photon.position[2] - p.z;
-      if (!(dx * dx + dy * dy + dz * dz <= radius2)) continue;
-      const auto q = normal_components(photon.normal);
-      if (!(n[0] * static_cast<float>(q[0]) + n[1] * static_cast<float>(q[1]) +
-                n[2] * static_cast<float>(q[2]) >
-            0.5f))
-        continue;
-      result[i].red += photon.flux_rg & 0xffffu;
-      result[i].green += photon.flux_rg >> 16;
-      result[i].blue += photon.flux_b;
-      ++result[i].count;
-    }
-  }
+std::vector<GatherSums> brute_force(const std::vector<GatherPoint>& points,
+                                    const std::vector<Photon>& photons, float radius2) {
+  std::vector<GatherSums> result;
+  for (const GatherPoint& point : points) result.push_back(gather_brute_force(point, photons, radius2));
   return result;
 }
 
@@ -96,9 +50,9 @@ Photon photon_at(RandomInputs& random, Vec3 p) {
 }
 
 /// Points, half of them beside photons, so that the smallest radii find some too.
-std::vector<Point> points_near(RandomInputs& random, const std::vector<Photon>& photons, const Space& space,
-                               double radius, std::size_t count) {
-  std::vector<Point> points;
+std::vector<GatherPoint> points_near(RandomInputs& random, const std::vector<Photon>& photons,
+                                     const Space& space, double radius, std::size_t count) {
+  std::vector<GatherPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
     Vec3 p = space.position(random);
     uint normal = random_normal(random);
@@ -113,7 +67,7 @@ std::vector<Point> points_near(RandomInputs& random, const std::vector<Photon>& 
   return points;
 }
 
-std::uint64_t found(const std::vector<Sums>& sums) {
+std::uint64_t found(const std::vector<GatherSums>& sums) {
   std::uint64_t total = 0;
   for (const auto& sum : sums) total += sum.count;
   return total;
@@ -198,17 +152,17 @@ TEST_CASE("a cell of more photons than the lanes can add up is summed exactly") 
   for (std::size_t i = 0; i < count; ++i)
     photons.push_back(
         {{float(random.uniform(0, 0.01)), 0, float(random.uniform(0, 0.01))}, normal, 0xffffffffu, 0xffffu});
-  std::vector<Point> points;
+  std::vector<GatherPoint> points;
   for (int i = 0; i < 16; ++i) points.push_back({0.005f, 0, 0.005f, normal});
   const auto sums = gather(points, photons, make_grid({-1, -1, -1}, 0.2, 16, 16, 16, count), 0.01f);
-  const Sums expected{count * 65535, count * 65535, count * 65535, count};
+  const GatherSums expected{count * 65535, count * 65535, count * 65535, count};
   for (const auto& sum : sums) CHECK((sum == expected));
 }
 
 TEST_CASE("photons of the other side, of another wall or of no place are not found") {
   const Vec3 up{0, 1, 0};
   const auto at = [](Vec3 n) { return Photon{{0, 0, 0}, pack_normal(n), 1 | 1 << 16, 1}; };
-  const std::vector<Point> points{{0, 0, 0, pack_normal(up)}};
+  const std::vector<GatherPoint> points{{0, 0, 0, pack_normal(up)}};
   const auto count = [&](const Photon& photon) {
     return gather(points, {photon}, make_grid({}, 1, 4, 4, 4, 1), 1)[0].count;
   };
@@ -223,7 +177,7 @@ TEST_CASE("photons of the other side, of another wall or of no place are not fou
   lost.position[1] = INFINITY;
   CHECK(count(lost) == 0);
   // An empty map.
-  CHECK((gather(points, {}, make_grid({}, 1, 4, 4, 4, 0), 1)[0] == Sums{}));
+  CHECK((gather(points, {}, make_grid({}, 1, 4, 4, 4, 0), 1)[0] == GatherSums{}));
 }
 
 TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pixel") {
@@ -234,7 +188,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   for (int i = 0; i < 60000; ++i) photons.push_back(photon_at(random, room.position(random)));
   const Grid grid = make_grid({}, 0.2, 10, 10, 10, photons.size());
   std::vector<VisiblePoint> visible(pixels * samples);
-  std::vector<Point> points;
+  std::vector<GatherPoint> points;
   for (auto& v : visible) {
     const Photon& near = photons[random.engine() % photons.size()];
     std::copy(near.position, near.position + 3, v.position);
@@ -257,7 +211,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   params.visible_points = samples;
   params.photon_flux = 0.125f;
   params.alpha = 0.7f;
-  const SortedPhotons map = sort_photons(program(), photons, grid);
+  const SortedPhotons map = sort_photons(test_device(), program(), photons, grid);
   auto in = test_device().upload(visible, "visible points");
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
 
@@ -284,7 +238,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
       std::uint64_t count = 0;
       for (uint s = 0; s < samples; ++s) {
         const VisiblePoint& v = visible[i * samples + s];
-        const Sums& sum = sums[i * samples + s];
+        const GatherSums& sum = sums[i * samples + s];
         if (v.weight[0] + v.weight[1] + v.weight[2] > 0) count += sum.count;
         const std::uint64_t flux[3] = {sum.red, sum.green, sum.blue};
         for (int c = 0; c < 3; ++c)

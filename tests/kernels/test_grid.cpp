@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "photon_grid.hpp"
+#include "vector_inputs.hpp"
 
 using namespace causticl;
 
@@ -70,7 +71,7 @@ TEST_CASE("the counting sort gives exact prefix sums and a permutation, whatever
     const Grid grid = make_grid({0.1, -0.2, 0.3}, 0.05, c.nx, c.ny, c.nz, c.photons);
     const WorkGroupSize restored;
     test_device().set_local_size(c.local);
-    const SortedPhotons map = sort_photons(program(), photons, grid);
+    const SortedPhotons map = sort_photons(test_device(), program(), photons, grid);
     const auto starts = test_device().download<uint>(map.starts, bucket_count(grid) + 1);
 
     std::vector<uint> expected(bucket_count(grid) + 1);

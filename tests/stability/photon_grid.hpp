@@ -1,0 +1,128 @@
+// Photons sorted into the grid by the shipped kernels of pass_grid.cl, and gathered without it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "device.hpp"
+#include "vectors.hpp"
+
+namespace causticl {
+
+/// The coarse normals of grid.cl, on the host.
+inline uint pack_normal(Vec3 n) {
+  const auto component = [](double v) {
+    return static_cast<uint>(std::lround(static_cast<float>(v) * 127.0f)) & 0xffu;
+  };
+  return component(n.x) | component(n.y) << 8 | component(n.z) << 16;
+}
+
+/// The three signed components of a packed normal, times 127.
+inline std::array<int, 3> normal_components(uint packed) {
+  return {static_cast<std::int8_t>(packed), static_cast<std::int8_t>(packed >> 8),
+          static_cast<std::int8_t>(packed >> 16)};
+}
+
+inline Grid make_grid(Vec3 origin, double cell, uint nx, uint ny, uint nz, std::size_t photons) {
+  return {to_float4(origin, 1 / cell), nx, ny, nz, static_cast<uint>(photons)};
+}
+inline std::size_t bucket_count(const Grid& grid) { return std::size_t(grid.nx) * grid.ny * grid.nz; }
+
+struct SortedPhotons {
+  cl::Buffer starts, sorted;
+};
+
+inline std::size_t sorted_stride(std::size_t photons) { return (photons + 15) & ~std::size_t(7); }
+
+/// Runs count, sum, scan and move as the photon map does.
+inline SortedPhotons sort_photons(Device& device, const cl::Program& program,
+                                  const std::vector<Photon>& photons, const Grid& grid) {
+  constexpr std::size_t segment = 256;  // SCAN_SEGMENT
+  const std::size_t buckets = bucket_count(grid), segments = (buckets + segment - 1) / segment;
+  auto in = device.upload(photons, "photons");
+  auto cursors = device.buffer(buckets * sizeof(cl_uint), "cursors"),
+       sums = device.buffer(segments * sizeof(cl_uint), "sums");
+  SortedPhotons result{device.buffer((buckets + 1) * sizeof(cl_uint), "starts"),
+                       device.buffer(sorted_stride(photons.size()) * sizeof(Photon), "sorted")};
+  device.clear(cursors, buckets * sizeof(cl_uint));
+  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
+    if (items == 0) return;
+    cl::Kernel kernel(program, name);
+    set_arguments(kernel, arguments...);
+    device.launch(kernel, items);
+  };
+  run("count_photons", photons.size(), in, cursors, grid);
+  run("sum_segments", segments, cursors, sums, cl_uint(buckets));
+  run("scan_sums", 1, sums, cl_uint(segments));
+  run("scan_segments", segments, cursors, sums, result.starts, cl_uint(buckets));
+  run("move_photons", photons.size(), in, cursors, result.sorted, grid);
+  device.queue().finish();
+  return result;
+}
+
+/// A point to gather around; `normal` is packed.
+struct GatherPoint {
+  float x, y, z;
+  uint normal;
+};
+/// Gathered as ulong4 on the device.
+struct GatherSums {
+  std::uint64_t red = 0, green = 0, blue = 0, count = 0;
+  bool operator==(const GatherSums&) const = default;
+};
+
+/// Kernels that sort_photons and gather_photons run.
+constexpr const char* gather_source = R"(
+#include "pass_grid.cl"
+#include "pass_gather.cl"
+// One gather for each point; w of a point holds its packed normal.
+kernel void gather_points(global const float4 *points, global const uint *starts, global const uint *sorted,
+                          global ulong4 *sums, Grid grid, float radius2, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Gathered sum = gather(grid, starts, sorted, convert_real3(points[i].xyz), normal_unpack(as_uint(points[i].w)),
+                        radius2);
+  sums[i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+}
+)";
+
+/// The shipped sort and gather, one gather for each point.
+inline std::vector<GatherSums> gather_photons(Device& device, const cl::Program& program,
+                                              const std::vector<GatherPoint>& points,
+                                              const std::vector<Photon>& photons, const Grid& grid,
+                                              float radius2) {
+  const SortedPhotons map = sort_photons(device, program, photons, grid);
+  const auto in = device.upload(points, "points"),
+             out = device.buffer(points.size() * sizeof(GatherSums), "sums");
+  cl::Kernel kernel(program, "gather_points");
+  set_arguments(kernel, in, map.starts, map.sorted, out, grid, radius2, static_cast<cl_uint>(points.size()));
+  device.launch(kernel, points.size());
+  return device.download<GatherSums>(out, points.size());
+}
+
+/// All photons tried for one point. The same single-precision comparisons as in gather.cl, so that the sums
+/// must be equal.
+inline GatherSums gather_brute_force(const GatherPoint& p, const std::vector<Photon>& photons,
+                                     float radius2) {
+  GatherSums sums;
+  float n[3];
+  for (int axis = 0; axis < 3; ++axis)
+    n[axis] = static_cast<float>(normal_components(p.normal)[axis]) * (1.0f / 127) * (1.0f / 127);
+  for (const Photon& photon : photons) {
+    const float dx = photon.position[0] - p.x, dy = photon.position[1] - p.y, dz = photon.position[2] - p.z;
+    if (!(dx * dx + dy * dy + dz * dz <= radius2)) continue;
+    const auto q = normal_components(photon.normal);
+    if (!(n[0] * static_cast<float>(q[0]) + n[1] * static_cast<float>(q[1]) +
+              n[2] * static_cast<float>(q[2]) >
+          0.5f))
+      continue;
+    sums.red += photon.flux_rg & 0xffffu;
+    sums.green += photon.flux_rg >> 16;
+    sums.blue += photon.flux_b;
+    ++sums.count;
+  }
+  return sums;
+}
+
+}  // namespace causticl
