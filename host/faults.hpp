@@ -23,7 +23,7 @@ inline constexpr FaultKind fault_kinds[] = {
     {"non_finite", &Faults::non_finite,
      "samples were NaN or infinite and were left out (look for such values in textures)"},
     {"saturated", &Faults::saturated,
-     "photons were brighter than their record holds and were clamped: light is missing"},
+     "photons or pixels were brighter than their record holds: light is missing"},
     {"unresolved", &Faults::unresolved,
      "rays met a revolved curve where two roots could not be told apart; one was taken"},
     {"traversal_bound", &Faults::traversal_bound,

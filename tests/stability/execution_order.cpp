@@ -73,7 +73,7 @@ CheckResult sort_and_gather(CheckContext& context) {
   return result;
 }
 
-/// A lamp, a glass and a mirror ball and one of paint on a large ball: caustics, several emitters, shadow
+/// Two lamps over a glass ball and one of paint on a large ball: caustics, several emitters, shadow
 /// rays.
 Scene small_scene(std::uint64_t photons) {
   Scene scene;
@@ -82,6 +82,7 @@ Scene small_scene(std::uint64_t photons) {
   scene.max_depth = 6;
   scene.renderer.passes = 3;
   scene.renderer.visible_points = 2;
+  scene.renderer.radius = 0.3;
   scene.renderer.photons = static_cast<std::int64_t>(photons);
   scene.camera.origin = {0, 1, 6};
   scene.camera.right = {1, 0, 0};
@@ -94,16 +95,14 @@ Scene small_scene(std::uint64_t photons) {
     scene.materials.push_back(material);
     scene.objects.push_back(object);
   };
-  MaterialSpec paint, glass, mirror, lamp;
+  MaterialSpec paint, glass, lamp;
   paint.color = {0.8, 0.6, 0.4};
   glass.kind = MaterialSpec::Kind::glass;
-  mirror.kind = MaterialSpec::Kind::mirror;
   lamp.color = {0, 0, 0};
   lamp.emission = {20, 18, 15};
   ball({0, -100, 0}, 100, paint);
   ball({-1.2, 0.8, 0}, 0.8, glass);
-  ball({1.2, 0.8, 0}, 0.8, mirror);
-  ball({0, 0.4, 1.5}, 0.4, paint);
+  ball({1.2, 0.8, 0}, 0.8, paint);
   ball({0.5, 4, 1}, 0.3, lamp);
   ball({-2, 3, 0}, 0.2, lamp);
   return scene;
@@ -125,9 +124,9 @@ CheckResult picture(CheckContext& context) {
   };
   const auto expected = render();
   WorkGroups groups(context.device);
-  // A CPU compiles all kernels anew for each size: --quick leaves out one.
+  // PoCL compiles all kernels anew for each size: --quick tries the most unlike alone.
   const auto sizes =
-      context.inputs < 1000000 ? std::vector<std::size_t>{1, 256} : std::vector<std::size_t>{1, 32, 256};
+      context.inputs < 1000000 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 32, 256};
   groups.each(sizes, result.note, [&] {
     const auto pixels = render();
     for (std::size_t i = 0; i < expected.size(); ++i)

@@ -81,10 +81,10 @@ struct Numbers {
   }
 };
 
-/// Half of the numbers are at the border of two lights, all of which are equally likely to be tried. A
-/// light's own numbers must be those of its share of the running power to one in 2^47, and its probability
-/// that share: then what is drawn is what is stated. A running sum in single precision is off by 2^22 of
-/// these units.
+/// Half of the numbers are at the border of two lights, all of which are equally likely to be tried. The
+/// light that a number chooses must be the one that owns it, and its stated probability the share of numbers
+/// that it owns; that share is its share of power, but for the rounding of both ends to whole numbers. What
+/// is drawn is then what is stated. A running sum in single precision is off by 2^22 numbers.
 CheckResult exact_choice(CheckContext& context) {
   const ManyLights lights;
   const auto emitters = context.device.upload(lights.emitters, "emitters of a check");
@@ -92,7 +92,7 @@ CheckResult exact_choice(CheckContext& context) {
   CheckKernel kernel(context, context.program(source, 0), "choose");
   kernel.with(emitters, static_cast<cl_uint>(count));
   return run_random_check(
-      context, 1, "2^-47",
+      context, 1.05, "2^-47",
       [&](InputRandom& random, std::uint64_t index) {
         if (index % 2) return Numbers{random.uniform24(), random.uniform24()};
         const double end = std::floor(lights.ends[random.below(count)] * numbers + random.uniform(-2, 2));
@@ -103,10 +103,12 @@ CheckResult exact_choice(CheckContext& context) {
       [&](const auto& inputs) { return kernel.run<std::uint32_t>(inputs); },
       [&](const Numbers& in, std::uint32_t chosen) {
         if (chosen >= count) return INFINITY + 0.0;
-        const double position = static_cast<double>(in.number()) + 0.5;
-        const double start = lights.start(chosen) * numbers, end = lights.ends[chosen] * numbers;
-        const double share = end - start, stated = lights.emitters[chosen].probability * numbers;
-        return std::max({0.0, start - position, position - end, std::fabs(stated - share) - 0x1p-24 * share});
+        const std::uint64_t start = chosen == 0 ? 0 : lights.emitters[chosen - 1].cdf,
+                            end = lights.emitters[chosen].cdf;
+        if (in.number() < start || in.number() >= end) return INFINITY + 0.0;
+        const double owned = static_cast<double>(end - start);
+        if (lights.emitters[chosen].probability != static_cast<float>(owned / numbers)) return INFINITY + 0.0;
+        return std::fabs(owned - (lights.ends[chosen] - lights.start(chosen)) * numbers);
       });
 }
 
