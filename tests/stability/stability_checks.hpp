@@ -16,7 +16,8 @@ std::vector<Check> spawned_ray_checks();      // hard case 8
 std::vector<Check> placement_checks();        // hard case 9
 std::vector<Check> bezier_checks();           // hard case 10
 std::vector<Check> sampling_checks();         // hard cases 11 and 23
-std::vector<Check> light_sampling_checks();   // hard case 23
+std::vector<Check> light_sampling_checks();   // hard case 23: the choice of a light
+std::vector<Check> light_point_checks();      // hard case 23: points on lights
 std::vector<Check> fresnel_checks();          // hard case 12
 std::vector<Check> rough_lobe_checks();       // hard case 13
 std::vector<Check> energy_checks();           // hard cases 14 and 15
