@@ -2,38 +2,9 @@
 #pragma once
 
 #include "device_fixture.hpp"
-#include "vec.hpp"
+#include "shape_inputs.hpp"
 
 namespace causticl {
-
-inline float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-inline Vec3 to_vec3(float4 v) { return {v.x, v.y, v.z}; }
-
-inline Shape make_shape(uint type, const Transform& transform, uint curve = 0) {
-  Shape shape{};
-  const Transform inverse = transform.inverse();
-  for (int i = 0; i < 3; ++i) {
-    shape.to_world[i] = to_float4(transform.rows[i], transform.translation[i]);
-    shape.to_local[i] = to_float4(inverse.rows[i], inverse.translation[i]);
-  }
-  shape.sphere = to_float4(transform.translation, length(transform.vector({1, 0, 0})));
-  shape.type = type;
-  shape.material = 7;
-  shape.curve = curve;
-  return shape;
-}
-
-/// The map that a device shape really has: its rows in single precision.
-inline Transform rows_transform(const float4* rows) {
-  Transform result;
-  for (int i = 0; i < 3; ++i) {
-    result.rows[i] = to_vec3(rows[i]);
-    result.translation[i] = rows[i].w;
-  }
-  return result;
-}
 
 struct ShapeRay {
   float4 origin;     // w: t_max

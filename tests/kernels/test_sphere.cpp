@@ -1,4 +1,5 @@
 #include "shape_fixture.hpp"
+#include "sphere_oracle.hpp"
 
 using namespace causticl;
 
@@ -9,23 +10,8 @@ Shape sphere(Vec3 centre, double radius) {
                     Transform::scale({radius, radius, radius}).followed_by(Transform::shift(centre)));
 }
 
-// The roots for the very numbers that the device sees, in long double.
-struct Roots {
-  long double near, far, approach;  // approach: distance between centre and ray, over the radius
-};
-Roots exact_roots(const Shape& shape, const ShapeRay& ray) {
-  long double f[3], d[3], a = 0, b = 0, c = 0;
-  const Vec3 origin = to_vec3(ray.origin), direction = to_vec3(ray.direction), centre = to_vec3(shape.sphere);
-  for (int i = 0; i < 3; ++i) {
-    f[i] = static_cast<long double>(origin[i]) - centre[i];
-    d[i] = direction[i];
-    a += d[i] * d[i];
-    b -= f[i] * d[i];
-    c += f[i] * f[i];
-  }
-  const long double radius = shape.sphere.w, approach2 = c - b * b / a;
-  const long double root = std::sqrt(std::fmax((radius * radius - approach2) * a, 0.0L));
-  return {(b - root) / a, (b + root) / a, std::sqrt(std::fmax(approach2, 0.0L)) / radius};
+SphereRoots exact_roots(const Shape& shape, const ShapeRay& ray) {
+  return sphere_roots(to_vec3(shape.sphere), shape.sphere.w, to_vec3(ray.origin), to_vec3(ray.direction));
 }
 
 }  // namespace
@@ -53,23 +39,23 @@ TEST_CASE("sphere: nearest root, position, normal and uv against long double on 
   std::size_t wrong = 0, wrong_t = 0, wrong_surface = 0, wrong_occlusion = 0, hits = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Shape& shape = scene.shapes[i % scene.shapes.size()];
-    const Roots roots = exact_roots(shape, rays[i]);
+    const SphereRoots roots = exact_roots(shape, rays[i]);
     const ShapeResult& result = results[i];
     const double radius = shape.sphere.w;
     wrong_occlusion += (result.uv.w == 1) != (result.hit.w == 1);
+    const long double approach = roots.approach / radius;
     // Within rounding of a tangent ray or of an origin on the surface, either answer is right.
     const double size = length(to_vec3(rays[i].origin) - to_vec3(shape.sphere)) + radius;
-    if (std::fabs(roots.approach - 1) < 1e-6 * size / radius || std::fabs(roots.near) < 4e-6 * size ||
+    if (std::fabs(approach - 1) < 1e-6 * size / radius || std::fabs(roots.near) < 4e-6 * size ||
         std::fabs(roots.far) < 4e-6 * size)
       continue;
-    const bool expected = roots.approach < 1 && roots.far > 0;
+    const bool expected = approach < 1 && roots.far > 0;
     wrong += expected != (result.hit.w == 1);
     if (!expected || result.hit.w != 1) continue;
     ++hits;
     const double t = static_cast<double>(roots.near > 0 ? roots.near : roots.far);
     // Near-tangent roots are ill-conditioned: an error e of the approach moves t by e / cos.
-    const double cosine =
-        std::sqrt(std::fmax(1 - static_cast<double>(roots.approach * roots.approach), 1e-6));
+    const double cosine = std::sqrt(std::fmax(1 - static_cast<double>(approach * approach), 1e-6));
     wrong_t += !(std::fabs(result.hit.x - t) <= 1e-6 * size / cosine);
     const Vec3 p = to_vec3(result.position), n = to_vec3(result.geometric_normal);
     const double off_surface = std::fabs(length(p - to_vec3(shape.sphere)) - radius);
@@ -103,8 +89,8 @@ TEST_CASE("sphere: far and small, no miss to distance / radius 1e5 at 0.95 radii
   std::size_t missed = 0, inaccurate = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     // Rounding of the direction alone moves a far ray sideways; the true approach decides.
-    const Roots roots = exact_roots(scene.shapes[0], rays[i]);
-    if (roots.approach > 0.96) continue;
+    const SphereRoots roots = exact_roots(scene.shapes[0], rays[i]);
+    if (roots.approach > 0.96L) continue;  // of radius 1
     missed += results[i].hit.w != 1;
     const double ulp = length(to_vec3(rays[i].origin)) * 1.2e-7;
     inaccurate += results[i].hit.w == 1 && !(std::fabs(results[i].hit.x - roots.near) <= 4 * ulp + 1e-6);

@@ -15,6 +15,9 @@
 
 namespace causticl {
 
+/// How many inputs a kernel gets at a time, at most.
+constexpr std::size_t check_batch = std::size_t{1} << 18;
+
 /// A kernel with the signature kernel(global const Input*, global Output*, uint count, further arguments...).
 class CheckKernel {
  public:
@@ -59,7 +62,7 @@ CheckResult run_random_check(CheckContext& context, double tolerance, const char
                              const Generate& generate, const Evaluate& evaluate, const Judge& judge) {
   using Input = std::decay_t<decltype(generate(std::declval<InputRandom&>(), std::uint64_t{}))>;
   static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) % 4 == 0);
-  constexpr std::size_t batch = std::size_t{1} << 18, chunk = 4096, words = sizeof(Input) / 4;
+  constexpr std::size_t batch = check_batch, chunk = 4096, words = sizeof(Input) / 4;
 
   CheckResult result;
   result.tolerance = tolerance;
