@@ -220,7 +220,7 @@ CheckResult no_second_hit(CheckContext& context) {
 std::vector<Check> sphere_checks() {
   return {{1, "far and small spheres: no miss, exact hit point", 1, far_or_small},
           {2, "origin in, on, tangent to a sphere: the first root", 1, first_root},
-          {2, "... and rays spawned there stay on their side", 1, no_second_hit}};
+          {2, "origin in, on, tangent: spawned rays keep their side", 1, no_second_hit}};
 }
 
 }  // namespace causticl
