@@ -60,7 +60,7 @@ INLINE Ray spawn(Surface surface, real t, real3 way, real sine, SpawnedRay *spaw
 INLINE SpawnedRay spawn_from_shape(global const Shape *shape, global const float *curves, Ray ray, real3 way,
                                    real sine) {
   SpawnedRay spawned = spawned_none();
-  Hit hit = {INFINITY, HIT_NONE, 0, 0}, again = hit;
+  Hit hit = {INFINITY, HIT_NONE, 0, 0, 0}, again = hit;
   if (!shape_closest(shape, 0, curves, ray, &hit)) return spawned;
   Surface surface;
   shape_surface(shape, curves, ray, hit, &surface);

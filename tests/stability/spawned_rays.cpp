@@ -34,7 +34,7 @@ kernel void mesh_spawn(global const OutgoingRay *in, global SpawnedRay *out, uin
   if (i >= count) return;
   Ray ray = {load3(in[i].origin), load3(in[i].direction)};
   SpawnedRay spawned = spawned_none();
-  Hit hit = {INFINITY, HIT_NONE, 0, 0}, again = hit;
+  Hit hit = {INFINITY, HIT_NONE, 0, 0, 0}, again = hit;
   if (block_closest(blocks, in[i].shape, sheared_ray(ray), &hit)) {
     Surface surface;
     triangle_surface(blocks, attributes, hit, &surface);

@@ -29,7 +29,7 @@ kernel void sphere_hit(global const SphereRay *in, global float4 *out, uint coun
   uint i = get_global_id(0);
   if (i >= count) return;
   Ray ray = load_sphere(in + i, shapes + i);
-  Hit hit = {INFINITY, HIT_NONE, 0, 0};
+  Hit hit = {INFINITY, HIT_NONE, 0, 0, 0};
   out[i] = (float4)(0, 0, 0, INFINITY);
   if (!shape_closest(shapes + i, 0, 0, ray, &hit)) return;
   Surface surface;
