@@ -3,7 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "curve.hpp"
@@ -32,10 +33,11 @@ class CurveOracle {
   }
 
   /// (x, y) at t.
-  static std::array<double, 2> point(CurvePoints p, double t) {
+  static std::array<double, 2> point(const CurvePoints& points, double t) {
+    CurvePoints p = points;
     for (std::size_t n = p.size(); n > 1; --n)
       for (std::size_t i = 0; i + 1 < n; ++i)
-        for (int k = 0; k < 2; ++k) p[i][k] += (p[i + 1][k] - p[i][k]) * t;
+        for (std::size_t k = 0; k < 2; ++k) p[i][k] += (p[i + 1][k] - p[i][k]) * t;
     return p[0];
   }
 
@@ -57,6 +59,26 @@ class CurveOracle {
       }
     }
     return best;
+  }
+
+  /// Whether a first hit at `t` is right for a surface that is known to within `tolerance`: the ray is at the
+  /// surface there, and wherever it crosses the surface before, it stays within the tolerance until it
+  /// crosses back or reaches t.
+  bool right_within(Vec3 o, Vec3 d, double t, double tolerance) const {
+    const auto away = [&](double at) { return distance(o + d * at, 2 * tolerance) > tolerance; };
+    if (std::isfinite(t) && away(t)) return false;
+    double start = 0;
+    for (int crossing = 0; crossing < 64; ++crossing) {
+      const double next = start + first_hit(o + d * start, d);
+      if (next >= t * (1 - 1e-6)) return true;
+      const double after = next + 1e-9 * (1 + next);
+      const double until = std::min(after + first_hit(o + d * after, d), t);
+      if (std::isinf(until)) return false;
+      for (int i = 0; i < 16; ++i)
+        if (away(next + (until - next) * (i + 0.5) / 16)) return false;
+      start = after;
+    }
+    return false;
   }
 
   /// Distance of a local point from the surface, no more than `at_most`.
