@@ -15,7 +15,9 @@
 #include "triangle.cl"
 
 // More node tests than any ray can need: only a device that computes wrongly gets there, and then it must not hang.
+#ifndef KD_STEP_LIMIT
 #define KD_STEP_LIMIT (1u << 24)
+#endif
 
 #define UNIT 5.9604645e-8f  // roundoff of float
 
@@ -102,11 +104,11 @@ INLINE uint block_shapes(global const TriangleBlock *block, SlabRay ray, float t
 
 // The nearest hit before hit->t among the blocks of a leaf.
 INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
-                         uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, Hit *hit) {
+                         uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, Hit *hit) {
   bool found = false;
   uint first = child & KD_INDEX;
-  for (uint i = first; i < first + count; ++i) {
-    if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, sheared, hit);
+  for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
+    if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, triangle, hit);
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
       for (uint met = block_shapes(blocks + i, slab, hit->t); met != 0; met &= met - 1u) {
         uint index = blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE;
@@ -118,12 +120,12 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
 }
 
 INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
-                          uint child, uint count, Ray ray, ShearedRay sheared, SlabRay slab, real t_max,
+                          uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, real t_max,
                           uint *faults) {
   uint first = child & KD_INDEX;
-  for (uint i = first; i < first + count; ++i) {
+  for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     real8 t, weight_1, weight_2;
-    if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, sheared, t_max, &t, &weight_1, &weight_2)) return true;
+    if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, triangle, t_max, &t, &weight_1, &weight_2)) return true;
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
       for (uint met = block_shapes(blocks + i, slab, t_max); met != 0; met &= met - 1u) {
         uint index = blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE;
@@ -138,7 +140,8 @@ INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape
 // own prefetch() does nothing on PoCL.
 INLINE void prefetch_child(global const KdNode *nodes, global const TriangleBlock *blocks, uint child) {
 #if defined(__x86_64__) || defined(__aarch64__)
-  size_t address = (child & KD_LEAF) ? (size_t)(blocks + (child & KD_INDEX)) : (size_t)(nodes + child);
+  size_t address =
+      (child & KD_LEAF) ? (size_t)(blocks + (child & KD_INDEX) + BLOCK_STRIDE - 1u) : (size_t)(nodes + child);
   __builtin_prefetch((const void *)address);
   __builtin_prefetch((const void *)(address + 64));
   __builtin_prefetch((const void *)(address + 128));
@@ -155,7 +158,7 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
                            global const float *curves, Ray ray, Hit *hit) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (nodes->child[0] == 0) return false;
-  ShearedRay sheared = sheared_ray(ray);
+  TriangleRay triangle = triangle_ray(ray);
   SlabRay slab = slab_ray(ray, nodes);
   bool found = false;
   uint index = 0, slot = 0;
@@ -198,7 +201,7 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
           retest = false;
           break;
         }
-        if (leaf_closest(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, hit)) {
+        if (leaf_closest(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, triangle, slab, hit)) {
           found = true;
           if (hit_is_final(nodes + index, slot, slab, (float)hit->t)) return true;
         }
@@ -225,12 +228,12 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
   return found;
 }
 
-// Whether anything in the tree is met for 0 < t < t_max; adds to *faults. The order does not matter here, so the trail holds the
-// children left to visit, one bit each.
+// Whether anything in the tree is met for 0 < t < t_max; adds to *faults. The order does not matter here, so the trail
+// holds the children left to visit, one bit each.
 INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                             global const float *curves, Ray ray, real t_max, uint *faults) {
   if (nodes->child[0] == 0) return false;
-  ShearedRay sheared = sheared_ray(ray);
+  TriangleRay triangle = triangle_ray(ray);
   SlabRay slab = slab_ray(ray, nodes);
   uint index = 0;
   ulong trail_low = 0, trail_high = 0;  // 8 bits a level, the node above the current one lowest
@@ -250,7 +253,7 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
           trail_low = (trail_low << 8) | left;
           break;
         }
-        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, sheared, slab, t_max,
+        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, triangle, slab, t_max,
                           faults))
           return true;
       } else {

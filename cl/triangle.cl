@@ -1,36 +1,10 @@
-// Watertight ray-triangle intersection, eight triangles at once, and the surface at a hit.
+// Eight triangles at once against a ray, and the surface at a hit.
 //
-// The test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT 2013): vertices are moved to
-// the ray's origin and sheared so that the ray runs along +z; the signs of the three edge functions then decide.
-// An edge gives the two triangles beside it the same number with opposite sign, so a ray cannot pass between.
-// The paper falls back to double precision where an edge function vanishes; here the rounding errors of its two
-// products, which fma() yields exactly, are added back, which gives the exact sign in the same precision.
+// Two tests are to choose from, by `render --triangle-test`: each defines what it keeps of a ray (TriangleRay,
+// triangle_ray()), block_intersect(), and how many blocks a leaf holds for eight triangles (BLOCK_STRIDE).
 #include "ray.cl"
 #include "types.h"
 
-// The ray in the order of axes that the shear wants: z is the axis along which the direction is largest.
-typedef struct {
-  size_t x, y, z;  // offsets of the axes' rows in a block's vertex, in floats
-  real origin_x, origin_y, origin_z;
-  real shear_x, shear_y, scale_z;
-} ShearedRay;
-
-INLINE ShearedRay sheared_ray(Ray ray) {
-  real3 d = ray.direction, o = ray.origin, a = fabs(d);
-  ShearedRay s;
-  if (a.x >= a.y && a.x >= a.z) {
-    s.x = 8, s.y = 16, s.z = 0;
-    d = d.yzx, o = o.yzx;
-  } else if (a.y >= a.z) {
-    s.x = 16, s.y = 0, s.z = 8;
-    d = d.zxy, o = o.zxy;
-  } else {
-    s.x = 0, s.y = 8, s.z = 16;
-  }
-  s.origin_x = o.x, s.origin_y = o.y, s.origin_z = o.z;
-  s.shear_x = d.x / d.z, s.shear_y = d.y / d.z, s.scale_z = 1 / d.z;
-  return s;
-}
 
 // The lanes of a comparison's result, one bit each. Written out by lanes the compilers make a dozen shuffles of it
 // where x86 has one instruction.
@@ -61,58 +35,14 @@ INLINE int min_lane_int(int8 v) {
   return min(b.x, b.y);
 }
 
-INLINE real8 block_row(global const TriangleBlock *block, uint vertex, size_t row) {
-  return convert_real8(*(global const float8 *)(block->position[vertex][0] + row));
-}
-
-// a b - c d with the sign of the exact value.
-INLINE real8 signed_difference(real8 a, real8 b, real8 c, real8 d) {
-  real8 p = a * b, q = c * d;
-  return (p - q) + (fma(a, b, -p) - fma(c, d, -q));
-}
-
-// Distances t at which the ray meets the triangles of a block; INFINITY in the lanes that it misses (also for
-// t <= 0 and t >= t_max), and the weights of vertices 1 and 2. False if it misses all; then nothing is written.
-INLINE bool block_intersect(global const TriangleBlock *block, ShearedRay ray, real t_max, real8 *t, real8 *weight_1,
-                            real8 *weight_2) {
-  real8 az = block_row(block, 0, ray.z) - ray.origin_z;
-  real8 bz = block_row(block, 1, ray.z) - ray.origin_z;
-  real8 cz = block_row(block, 2, ray.z) - ray.origin_z;
-  real8 ax = fma(-ray.shear_x, az, block_row(block, 0, ray.x) - ray.origin_x);
-  real8 ay = fma(-ray.shear_y, az, block_row(block, 0, ray.y) - ray.origin_y);
-  real8 bx = fma(-ray.shear_x, bz, block_row(block, 1, ray.x) - ray.origin_x);
-  real8 by = fma(-ray.shear_y, bz, block_row(block, 1, ray.y) - ray.origin_y);
-  real8 cx = fma(-ray.shear_x, cz, block_row(block, 2, ray.x) - ray.origin_x);
-  real8 cy = fma(-ray.shear_y, cz, block_row(block, 2, ray.y) - ray.origin_y);
-
-  // Rounding is monotone: the sign of a difference of rounded products is right or it is zero. Zero counts as
-  // inside, so these lanes include every triangle that the ray meets.
-  real8 u = cx * by - cy * bx;
-  real8 v = ax * cy - ay * cx;
-  real8 w = bx * ay - by * ax;
-  // Where vertex 2 is NaN, u and v are, and both selections below keep the NaN of the first.
-  real8 low = v < u ? v : u, high = v > u ? v : u;
-  low = w < low ? w : low;
-  high = w > high ? w : high;
-  if (!any_lane((low >= 0) | (high <= 0))) return false;
-
-  u = signed_difference(cx, by, cy, bx);
-  v = signed_difference(ax, cy, ay, cx);
-  w = signed_difference(bx, ay, by, ax);
-  real8 determinant = u + v + w;
-  real8 inverse = 1 / determinant;
-  real8 distance = (u * az + v * bz + w * cz) * (ray.scale_z * inverse);
-  mask8 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
-  mask8 met = inside & (determinant != 0) & (distance > 0) & (distance < t_max);
-  if (!any_lane(met)) return false;
-  *t = met ? distance : (real8)INFINITY;
-  *weight_1 = v * inverse;
-  *weight_2 = w * inverse;
-  return true;
-}
+#ifdef TRIANGLES_PRECOMPUTED
+#include "triangle_precomputed.cl"
+#else
+#include "triangle_watertight.cl"
+#endif
 
 // Takes the nearest triangle of block `index` into `hit` if it is nearer than hit->t.
-INLINE bool block_closest(global const TriangleBlock *blocks, uint index, ShearedRay ray, Hit *hit) {
+INLINE bool block_closest(global const TriangleBlock *blocks, uint index, TriangleRay ray, Hit *hit) {
   real8 t, weight_1, weight_2;
   if (!block_intersect(blocks + index, ray, hit->t, &t, &weight_1, &weight_2)) return false;
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -143,12 +73,33 @@ INLINE real3 block_vertex(global const TriangleBlock *block, uint vertex, uint l
                  block->position[vertex][2][lane]);
 }
 
+// a - b is the result plus what is added to `low`, exactly (Knuth's TwoSum).
+INLINE real3 exact_difference(real3 a, real3 b, real3 *low) {
+  real3 d = a - b, c = a - d;
+  *low = (a - (d + c)) + (c - b);
+  return d;
+}
+
 // The unit normal of a triangle by its winding; the edges are scaled first, since the squared area of a triangle
-// of 1e-10 underflows.
+// of 1e-10 underflows. A needle's normal is what is left when long products cancel, so there the roundings of edges
+// and products are added back: without, one of 1 : 10^6 is off by some per cent and one of 1 : 10^8 arbitrary.
 INLINE real3 triangle_normal(real3 a, real3 b, real3 c) {
   real3 e = b - a, f = c - a;
-  real scale = 1 / max(max_component(fabs(e)), max_component(fabs(f)));
-  return normalize(cross(e * scale, f * scale));
+  real size = max(max_component(fabs(e)), max_component(fabs(f)));
+  real scale = 1 / size;
+  e *= scale, f *= scale;
+  real3 n = cross(e, f);
+  if (dot(n, n) > (real)0.01 * dot(e, e) * dot(f, f)) return normalize(n);
+
+  real3 e_low, f_low;
+  scale = ldexp((real)1, -max(ilogb(size), -100));  // exact
+  e = exact_difference(b * scale, a * scale, &e_low);
+  f = exact_difference(c * scale, a * scale, &f_low);
+  real3 p = e.zxy * f.yzx;
+  n = fma(e.yzx, f.zxy, -p) - fma(e.zxy, f.yzx, -p);
+  n += (e.yzx * f_low.zxy - e.zxy * f_low.yzx) + (e_low.yzx * f.zxy - e_low.zxy * f.yzx);
+  real largest = max_component(fabs(n));
+  return largest > 0 ? normalize(n / largest) : (real3)(0, 0, 1);
 }
 
 // The surface at a hit on a triangle. The position is interpolated, which is far more exact than o + t d; its

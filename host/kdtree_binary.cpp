@@ -81,26 +81,49 @@ class Builder {
   }
 };
 
+// Whether six products of two floats each, which a double holds exactly, do not sum to zero: an exact sum by
+// growing an expansion (Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997).
+bool sum_is_nonzero(const double (&terms)[6]) {
+  double expansion[6] = {};
+  for (int size = 0; size < 6; ++size) {
+    double carry = terms[size];
+    for (int i = 0; i < size; ++i) {
+      const double sum = carry + expansion[i], part = sum - carry;
+      expansion[i] = (carry - (sum - part)) + (expansion[i] - part);
+      carry = sum;
+    }
+    expansion[size] = carry;
+  }
+  return std::any_of(expansion, expansion + 6, [](double part) { return part != 0; });
+}
+
+// Whether the triangle has area, exactly: in one of its projections along the axes.
+bool has_area(const TreeTriangle& triangle) {
+  const auto& [a, b, c] = triangle.position;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const auto product = [](float x, float y) { return static_cast<double>(x) * y; };
+    const double left = (static_cast<double>(b[i]) - a[i]) * (static_cast<double>(c[j]) - a[j]);
+    const double right = (static_cast<double>(b[j]) - a[j]) * (static_cast<double>(c[i]) - a[i]);
+    if (std::fabs(left - right) > 1e-15 * (std::fabs(left) + std::fabs(right))) return true;
+    if (sum_is_nonzero({product(a[i], b[j]), -product(a[j], b[i]), product(b[i], c[j]), -product(b[j], c[i]),
+                        product(c[i], a[j]), -product(c[j], a[i])}))
+      return true;
+  }
+  return false;
+}
+
 // The bounds of a triangle; empty for one without area, or with a vertex that is not finite.
 Box triangle_box(const TreeTriangle& triangle) {
   Box box;
-  double edge[2][3];
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     for (int v = 0; v < 3; ++v) {
       const float x = triangle.position[v][k];
       if (!std::isfinite(x)) return {};
       box.low[k] = std::min(box.low[k], x);
       box.high[k] = std::max(box.high[k], x);
     }
-    for (int e = 0; e < 2; ++e)
-      edge[e][k] = static_cast<double>(triangle.position[e + 1][k]) - triangle.position[0][k];
-  }
-  bool area = false;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    area |= edge[0][i] * edge[1][j] != edge[0][j] * edge[1][i];
-  }
-  return area ? box : Box{};
+  return has_area(triangle) ? box : Box{};
 }
 
 }  // namespace

@@ -43,10 +43,14 @@ cl::Program build_pass(Device& device, const std::string& pass, const KernelOpti
   if (in_double && !device.info().fp64)
     throw DeviceError("--precision double: device " + device.info().name +
                       " has no double precision (cl_khr_fp64); use --precision float or another --device");
+  const unsigned effects = options.effects & effects_read.at(pass);
   char define[64];
-  std::snprintf(define, sizeof define, "#define EFFECTS 0x%xu\n", options.effects & effects_read.at(pass));
-  const std::string source = define + std::string(in_double ? "#define CAUSTICL_DOUBLE\n" : "") +
-                             flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
+  std::snprintf(define, sizeof define, "#define EFFECTS 0x%xu\n", effects);
+  std::string defines = define;
+  if (in_double) defines += "#define CAUSTICL_DOUBLE\n";
+  if (options.triangle_test == TriangleTest::precomputed && (effects & EFFECT_TRIANGLES))
+    defines += "#define TRIANGLES_PRECOMPUTED\n";
+  const std::string source = defines + flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
   if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);
   return device.build(source);
 }

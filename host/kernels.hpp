@@ -5,6 +5,7 @@
 
 #include "device.hpp"
 #include "effects.hpp"
+#include "triangle_transforms.hpp"
 
 namespace causticl {
 
@@ -22,6 +23,7 @@ constexpr std::size_t record_scale(Precision precision) { return precision == Pr
 struct KernelOptions {
   unsigned effects = 0;  // EFFECT_* bits of the scene
   Precision precision = Precision::float32;
+  TriangleTest triangle_test = TriangleTest::watertight;
   std::string kernel_dir;    // read cl/ live from here; empty: the embedded sources
   std::string dump_kernels;  // write each flattened source here; empty: do not
 };

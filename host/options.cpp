@@ -66,6 +66,9 @@ const auto is_override = [](const std::string& text) {
 };
 const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
 const auto is_precision = [](const std::string& text) { return text == "float" || text == "double"; };
+const auto is_triangle_test = [](const std::string& text) {
+  return text == "watertight" || text == "precomputed";
+};
 const auto is_folder = [](const std::string& text) {
   std::error_code unreadable;
   return std::filesystem::is_directory(text, unreadable);
@@ -73,7 +76,7 @@ const auto is_folder = [](const std::string& text) {
 
 /// What CLI11 leaves as text.
 struct Texts {
-  std::string integrator, size, precision;
+  std::string integrator, size, precision, triangle_test;
   std::vector<std::string> overrides;
 };
 
@@ -121,13 +124,18 @@ void add_output_options(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
-/// How exactly it computes.
-void add_precision_option(CLI::App& app, Texts& texts) {
+/// How it computes.
+void add_method_options(CLI::App& app, Texts& texts) {
   app.add_option("--precision", texts.precision,
                  "of the kernels' arithmetic; default: float. double needs a\n"
                  "device with fp64 and is slower: it is for measuring float")
       ->check(expect("float or double", is_precision))
       ->type_name("float|double");
+  app.add_option("--triangle-test", texts.triangle_test,
+                 "how rays meet triangles: watertight (the default) or by\n"
+                 "precomputed transforms, which lets some pass at edges")
+      ->check(expect("watertight or precomputed", is_triangle_test))
+      ->type_name("TEST");
 }
 
 /// What it runs on.
@@ -234,7 +242,7 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
   add_scene_options(render, options, texts);
   add_output_options(render, options);
-  add_precision_option(render, texts);
+  add_method_options(render, texts);
   add_device_options(render, options);
   add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
@@ -274,6 +282,7 @@ Options parse_options(int argc, const char* const* argv) {
   if (!texts.integrator.empty())
     options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
   if (texts.precision == "double") options.precision = Precision::float64;
+  if (texts.triangle_test == "precomputed") options.triangle_test = TriangleTest::precomputed;
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
   for (const auto& text : texts.overrides) {
     const auto equals = text.find('=');
@@ -326,6 +335,7 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   result.seed = options.seed;
   result.precision = options.precision;
   result.threads = options.threads;
+  result.triangle_test = options.triangle_test;
   result.kernel_dir = options.kernel_dir;
   result.dump_kernels = options.dump_kernels;
   return result;

@@ -29,6 +29,7 @@ struct Options {
   Precision precision = Precision::float32;
   std::string device;    // as find_device takes it
   unsigned threads = 0;  // 0: all
+  TriangleTest triangle_test = TriangleTest::watertight;
   std::string kernel_dir, dump_kernels;
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none

@@ -76,9 +76,9 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.precision = options.precision;
 
   const Effects effects = find_effects(scene);
-  const KernelOptions kernels{effect_bits(effects), options.precision, options.kernel_dir,
-                              options.dump_kernels};
-  const DeviceScene device_scene = upload_scene(scene, device, options.threads);
+  const KernelOptions kernels{effect_bits(effects), options.precision, options.triangle_test,
+                              options.kernel_dir, options.dump_kernels};
+  const DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
   Film film(device, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;
   if (sppm) {

@@ -13,6 +13,7 @@
 #include "image.hpp"
 #include "kernels.hpp"
 #include "scene.hpp"
+#include "triangle_transforms.hpp"
 
 namespace causticl {
 
@@ -22,6 +23,7 @@ struct RenderOptions {
   std::optional<double> time_limit;  // seconds from the start of render_scene
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
+  TriangleTest triangle_test = TriangleTest::watertight;
   unsigned threads = 0;      // for the tree; 0: all of the machine
   std::string kernel_dir;    // --kernel-dir: read cl/ live; empty: the embedded sources
   std::string dump_kernels;  // --dump-kernels: folder that receives what was built; empty: none

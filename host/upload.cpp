@@ -75,9 +75,10 @@ void upload_textures(const Scene& scene, Device& device, DeviceScene& out) {
 
 }  // namespace
 
-DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads) {
+DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, TriangleTest triangle_test) {
   const World world = build_world(scene);
-  const KdTree tree = build_kdtree(world.tree, threads);
+  KdTree tree = build_kdtree(world.tree, threads);
+  if (triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, threads);
   DeviceScene out;
   out.nodes = device.upload(tree.nodes, "tree nodes");
   out.blocks = device.upload(tree.blocks, "triangle blocks");

@@ -4,6 +4,7 @@
 #include "device.hpp"
 #include "kdtree.hpp"
 #include "scene.hpp"
+#include "triangle_transforms.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -19,8 +20,10 @@ struct DeviceScene {
   double tree_build_seconds = 0;
 };
 
-/// Builds the tree with `threads` threads (0: all cores) and uploads everything.
-DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads = 0);
+/// Builds the tree with `threads` threads (0: all cores), for kernels with `triangle_test`, and uploads
+/// everything.
+DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads = 0,
+                         TriangleTest triangle_test = TriangleTest::watertight);
 
 /// The thin lens of the scene's camera.
 Camera device_camera(const CameraSpec& camera);

@@ -1,6 +1,7 @@
 // Triangle meshes that tests and benchmarks generate.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -45,16 +46,19 @@ inline TriangleMesh torus_mesh(int columns, int rows, double radius, double tube
   });
 }
 
-/// A tube with small bumps round a (2, 3) torus knot, about `triangles` triangles within [-3, 3]^3.
+/// A point of the (2, 3) torus knot, u from 0 to 1.
+inline Vec3 torus_knot_point(double u) {
+  const double a = tau * u, r = 2 + std::cos(3 * a);
+  return {r * std::cos(2 * a), r * std::sin(2 * a), std::sin(3 * a)};
+}
+
+/// A tube with small bumps round the knot, about `triangles` triangles within [-3, 3]^3.
 inline TriangleMesh torus_knot_mesh(std::size_t triangles) {
   const int rows = static_cast<int>(std::sqrt(static_cast<double>(triangles) / 2 / 16));
   const int columns = static_cast<int>(triangles / 2 / static_cast<std::size_t>(rows));
-  const auto center = [](double u) {
-    const double a = tau * u, r = 2 + std::cos(3 * a);
-    return Vec3{r * std::cos(2 * a), r * std::sin(2 * a), std::sin(3 * a)};
-  };
   return grid_mesh(columns, rows, true, [=](double u, double v) {
-    const Vec3 c = center(u), forward = normalize(center(u + 1e-4) - center(u - 1e-4));
+    const Vec3 c = torus_knot_point(u);
+    const Vec3 forward = normalize(torus_knot_point(u + 1e-4) - torus_knot_point(u - 1e-4));
     const Vec3 side = normalize(cross(forward, Vec3{0.3, 0.2, 1})), up = cross(side, forward);
     const double r = 0.35 + 0.02 * std::sin(tau * 12 * v) * std::sin(tau * 90 * u);
     return c + side * (r * std::cos(tau * v)) + up * (r * std::sin(tau * v));
@@ -82,6 +86,35 @@ inline TriangleMesh icosphere_mesh(int levels, double radius) {
   }
   TriangleMesh mesh;
   for (const auto& [a, b, c] : current) mesh.push_back(make_triangle(a * radius, b * radius, c * radius));
+  return mesh;
+}
+
+/// The twelve triangles of a box.
+inline TriangleMesh box_mesh(Vec3 low, Vec3 high) {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      const auto corner = [&](bool right, bool top) {
+        Vec3 p;
+        p[axis] = (upper ? high : low)[axis];
+        p[(axis + 1) % 3] = (right == upper ? high : low)[(axis + 1) % 3];
+        p[(axis + 2) % 3] = (top ? high : low)[(axis + 2) % 3];
+        return p;
+      };
+      mesh.push_back(make_triangle(corner(false, false), corner(true, false), corner(true, true)));
+      mesh.push_back(make_triangle(corner(false, false), corner(true, true), corner(false, true)));
+    }
+  return mesh;
+}
+
+/// `mesh` with every point mapped.
+template <typename Map>
+TriangleMesh mapped_mesh(TriangleMesh mesh, const Map& map) {
+  for (auto& triangle : mesh)
+    for (auto& p : triangle.position) {
+      const Vec3 to = map(Vec3{p[0], p[1], p[2]});
+      for (int k = 0; k < 3; ++k) p[k] = static_cast<float>(to[k]);
+    }
   return mesh;
 }
 

@@ -79,10 +79,10 @@ TEST_CASE("help mentions every command and option") {
   };
   for (const char* word : {"render", "devices", "info", "--help", "--version", "Exit codes"})
     CHECK_THAT(help({}), Contains(word));
-  for (const char* word :
-       {"SCENE", "-o,", "--integrator sppm|pt", "--passes N", "--photons N", "--samples N", "--time SECONDS",
-        "--size WxH", "--seed N", "--device SPEC", "--threads N", "-D key=value", "--kernel-dir DIR",
-        "--dump-kernels DIR", "--quiet", "--stats ", "--stats-json FILE", "Usage: causticl render"})
+  for (const char* word : {"SCENE", "-o,", "--integrator sppm|pt", "--passes N", "--photons N", "--samples N",
+                           "--time SECONDS", "--size WxH", "--seed N", "--device SPEC", "--threads N",
+                           "-D key=value", "--kernel-dir DIR", "--dump-kernels DIR", "--triangle-test TEST",
+                           "--quiet", "--stats ", "--stats-json FILE", "Usage: causticl render"})
     CHECK_THAT(help({"render"}), Contains(word));
   for (const char* word : {"SCENE", "--integrator", "--size", "-D key=value"})
     CHECK_THAT(help({"info"}), Contains(word));
@@ -128,6 +128,8 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
       {{"render", "a.json", "--threads", "0"}, "--threads: expected a whole number from 1"},
       {{"render", "a.json", "--integrator", "vcm"}, "--integrator: expected sppm or pt, found 'vcm'"},
       {{"render", "a.json", "--precision", "half"}, "--precision: expected float or double, found 'half'"},
+      {{"render", "a.json", "--triangle-test", "fast"},
+       "--triangle-test: expected watertight or precomputed, found 'fast'"},
       {{"render", "a.json", "--kernel-dir", "/nonexistent"}, "--kernel-dir: expected an existing folder"},
       {{"render", "a.json", "-D", "radius"},
        "-D: expected key=value, as in renderer.radius=0.1, found 'radius'"},

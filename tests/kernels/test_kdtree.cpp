@@ -4,6 +4,7 @@
 
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"
+#include "mesh_set.hpp"
 #include "meshes.hpp"
 
 using namespace causticl;
@@ -20,19 +21,6 @@ struct TestHit {
   uint primitive;
 };
 
-std::vector<TriangleBlock> blocks_in_order(const TreeInput& input) {
-  std::vector<TriangleBlock> blocks((input.triangles.size() + 7) / 8);
-  for (std::size_t i = 0; i < blocks.size() * 8; ++i)
-    for (int v = 0; v < 3; ++v)
-      for (int k = 0; k < 3; ++k) {
-        auto& block = blocks[i / 8];
-        const bool used = i < input.triangles.size();
-        block.position[v][k][i % 8] = used ? input.triangles[i].position[v][k] : NAN;
-        block.primitive[i % 8] = used ? static_cast<uint>(i) : BLOCK_EMPTY;
-      }
-  return blocks;
-}
-
 // A scene with its tree on the device, and rays through it.
 struct Traversal {
   cl::Program& program;
@@ -44,7 +32,7 @@ struct Traversal {
       : program(shared_program()), input(in), tree(build_kdtree(in, 2)) {
     nodes = test_device().upload(tree.nodes, "nodes");
     blocks = test_device().upload(tree.blocks, "blocks");
-    list = test_device().upload(blocks_in_order(in), "list");
+    list = test_device().upload(blocks_in_order(in.triangles, TriangleTest::watertight), "list");
     shapes = test_device().upload(shape_list, "shapes");
   }
 

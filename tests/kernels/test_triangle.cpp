@@ -5,6 +5,7 @@
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"
 #include "meshes.hpp"
+#include "triangle_pairs.hpp"
 
 using namespace causticl;
 
@@ -18,7 +19,7 @@ kernel void intersect(global const TriangleBlock *blocks, global const float4 *r
   if (i >= count) return;
   Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
   real8 t = (real8)INFINITY, weight_1 = 0, weight_2 = 0;
-  block_intersect(blocks + i, sheared_ray(ray), rays[2 * i].w, &t, &weight_1, &weight_2);
+  block_intersect(blocks + i, triangle_ray(ray), rays[2 * i].w, &t, &weight_1, &weight_2);
   out[3 * i] = t;
   out[3 * i + 1] = weight_1;
   out[3 * i + 2] = weight_2;
@@ -37,10 +38,6 @@ kernel void surface(global const TriangleBlock *blocks, global const TriangleAtt
 }
 )";
 
-Vec3 vertex(const TreeTriangle& triangle, int v) {
-  return {triangle.position[v][0], triangle.position[v][1], triangle.position[v][2]};
-}
-
 Vec3 random_point(RandomInputs& random, double size) {
   return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
@@ -51,33 +48,7 @@ float4 to_float4(Vec3 v, double w) {
 Vec3 to_vec(float4 v) { return {v.x, v.y, v.z}; }
 
 std::vector<TriangleBlock> in_blocks(const TriangleMesh& mesh) {
-  std::vector<TriangleBlock> blocks((mesh.size() + 7) / 8);
-  for (std::size_t i = 0; i < blocks.size() * 8; ++i) {
-    blocks[i / 8].primitive[i % 8] = i < mesh.size() ? static_cast<uint>(i) : BLOCK_EMPTY;
-    for (int v = 0; v < 3; ++v)
-      for (int k = 0; k < 3; ++k)
-        blocks[i / 8].position[v][k][i % 8] = i < mesh.size() ? mesh[i].position[v][k] : NAN;
-  }
-  return blocks;
-}
-
-// What a ray meets, in double precision (Möller and Trumbore 1997). `margin`: how far the weights are from
-// the border of the triangle, negative outside.
-struct Exact {
-  double t = 0, weight_1 = 0, weight_2 = 0, margin = -1, cosine = 0;
-};
-Exact exact_hit(const TreeTriangle& triangle, Vec3 o, Vec3 d) {
-  const Vec3 a = vertex(triangle, 0), e = vertex(triangle, 1) - a, f = vertex(triangle, 2) - a;
-  const Vec3 p = cross(d, f), s = o - a, q = cross(s, e), n = cross(e, f);
-  const double determinant = dot(e, p);
-  Exact hit;
-  if (determinant == 0) return hit;
-  hit.weight_1 = dot(s, p) / determinant;
-  hit.weight_2 = dot(d, q) / determinant;
-  hit.t = dot(f, q) / determinant;
-  hit.margin = std::min({hit.weight_1, hit.weight_2, 1 - hit.weight_1 - hit.weight_2});
-  hit.cosine = std::fabs(dot(n, d)) / (length(n) * length(d));
-  return hit;
+  return blocks_in_order(mesh, TriangleTest::watertight);
 }
 
 }  // namespace
@@ -113,11 +84,12 @@ TEST_CASE("the triangle test agrees with double precision") {
     const std::size_t block = i / 8, lane = i % 8;
     const Vec3 origin = to_vec(rays[2 * block]), direction = to_vec(rays[2 * block + 1]);
     const float t_max = rays[2 * block].w;
-    const Exact exact = exact_hit(mesh[i], origin, direction);
+    const ExactHit exact = exact_hit(mesh[i], origin, direction);
     const float t = results[block * 24 + lane];
     // The shear rounds each vertex by 4 units in its distance from the origin; here distances are below 8.
     const double error = 8 * 6e-8 * 8;
-    const Vec3 a = vertex(mesh[i], 0), b = vertex(mesh[i], 1), c = vertex(mesh[i], 2);
+    const Vec3 a = triangle_vertex(mesh[i], 0), b = triangle_vertex(mesh[i], 1),
+               c = triangle_vertex(mesh[i], 2);
     const double longest = std::max({length(b - a), length(c - b), length(a - c)});
     const double height = length(cross(b - a, c - a)) / longest * exact.cosine;  // as the ray sees it
     const double slack = error / std::max(height, 1e-30),
@@ -162,7 +134,7 @@ std::size_t escapes(const TriangleMesh& mesh, RandomInputs& random, std::size_t 
       const auto& triangle =
           mesh[std::min(mesh.size() - 1, std::size_t(random.uniform() * double(mesh.size())))];
       const double s = i % 4 == 1 ? 0 : random.uniform();
-      direction = vertex(triangle, 0) * (1 - s) + vertex(triangle, 1) * s - to_vec(origin);
+      direction = triangle_vertex(triangle, 0) * (1 - s) + triangle_vertex(triangle, 1) * s - to_vec(origin);
     }
     rays.push_back(origin);
     rays.push_back(to_float4(normalize(direction), 0));
@@ -247,7 +219,8 @@ TEST_CASE("the surface of a triangle: position within its error bound, normals, 
   double worst_position = 0, worst_normal = 0, worst_shading = 0, worst_uv = 0;
   std::size_t wrong_material = 0, below = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 a = vertex(mesh[i], 0), b = vertex(mesh[i], 1), c = vertex(mesh[i], 2);
+    const Vec3 a = triangle_vertex(mesh[i], 0), b = triangle_vertex(mesh[i], 1),
+               c = triangle_vertex(mesh[i], 2);
     const double u = weights[i].x, v = weights[i].y, w = 1 - u - v;
     const Vec3 off = to_vec(surfaces[4 * i]) - (a * w + b * u + c * v);
     const double error = surfaces[4 * i].w;

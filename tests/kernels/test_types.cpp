@@ -50,6 +50,8 @@ const std::vector<Field> fields{
     FIELD(KdNode, extent),
     FIELD(TriangleBlock, position),
     FIELD(TriangleBlock, primitive),
+    FIELD(TriangleTransforms, row),
+    FIELD(TriangleTransforms, axis),
     FIELD(TriangleAttributes, uv),
     FIELD(TriangleAttributes, normal),
     FIELD(TriangleAttributes, material),

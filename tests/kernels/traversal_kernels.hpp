@@ -61,9 +61,9 @@ kernel void brute_force(global const TriangleBlock *blocks, uint block_count, gl
   uint i = get_global_id(0);
   if (i >= count) return;
   Ray ray = load_ray(rays, i);
-  ShearedRay sheared = sheared_ray(ray);
+  TriangleRay triangle = triangle_ray(ray);
   Hit hit = hit_none(rays[2 * i].w);
-  for (uint b = 0; b < block_count; ++b) block_closest(blocks, b, sheared, &hit);
+  for (uint b = 0; b < block_count; ++b) block_closest(blocks, b, triangle, &hit);
   for (uint s = 0; s < shape_count; ++s) shape_closest(shapes + s, s, 0, ray, &hit);
   store_hit(hits, i, blocks, hit);
 }

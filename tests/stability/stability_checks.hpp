@@ -9,7 +9,8 @@ namespace causticl {
 std::vector<Check> stability_checks();
 
 std::vector<Check> sphere_checks();           // hard cases 1 and 2
-std::vector<Check> triangle_checks();         // hard cases 3, 4 and 5
+std::vector<Check> triangle_checks();         // hard cases 3 and 4
+std::vector<Check> needle_checks();           // hard case 5
 std::vector<Check> slab_checks();             // hard case 6
 std::vector<Check> kdtree_checks();           // hard case 7
 std::vector<Check> spawned_ray_checks();      // hard case 8

@@ -1,0 +1,159 @@
+#include "mesh_set.hpp"
+
+#include <stdexcept>
+
+#include "effects.h"
+
+namespace causticl {
+namespace {
+
+// A node is tested when it is reached, and again for each child that is left after the nearest two: never
+// eight times. So with this limit a ray that takes a wrong turn ends before its time, and its hit is wrong.
+constexpr std::size_t step_limit = 1 << 14;
+
+const std::string source = "#define KD_STEP_LIMIT " + std::to_string(step_limit) + R"(
+#include "geometry.cl"
+typedef struct {
+  float origin[3], direction[3];
+  float t_max;
+  uint mesh;
+} MeshRay;
+typedef struct {
+  float t;
+  uint triangle;
+} MeshHit;
+// The parts of the buffers that belong to one mesh.
+typedef struct {
+  uint first_node, first_block;  // of its tree
+  uint first_listed, listed;     // blocks with its triangles in order
+} MeshRange;
+
+INLINE Ray mesh_ray(global const MeshRay *in) {
+  Ray ray = {(real3)(in->origin[0], in->origin[1], in->origin[2]),
+             (real3)(in->direction[0], in->direction[1], in->direction[2])};
+  return ray;
+}
+INLINE MeshHit mesh_hit(global const TriangleBlock *blocks, Hit hit) {
+  MeshHit result = {hit.faults ? NAN : (float)hit.t, BLOCK_EMPTY};
+  if (hit.primitive != HIT_NONE) result.triangle = blocks[hit.primitive / 8u].primitive[hit.primitive % 8u];
+  return result;
+}
+
+#define MESHES \
+  global const MeshRange *ranges, global const KdNode *nodes, global const TriangleBlock *blocks, \
+      global const TriangleBlock *list
+
+kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  MeshRange range = ranges[rays[i].mesh];
+  Hit hit = hit_none(rays[i].t_max);
+  kdtree_closest(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(rays + i), &hit);
+  hits[i] = mesh_hit(blocks + range.first_block, hit);
+}
+kernel void mesh_occluded(global const MeshRay *rays, global uint *met, uint count, MESHES) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  MeshRange range = ranges[rays[i].mesh];
+  uint faults = 0;
+  uint occluded = kdtree_occluded(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(rays + i),
+                                  rays[i].t_max, &faults);
+  met[i] = faults ? 2u : occluded;
+}
+kernel void mesh_brute_force(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  MeshRange range = ranges[rays[i].mesh];
+  TriangleRay ray = triangle_ray(mesh_ray(rays + i));
+  Hit hit = hit_none(rays[i].t_max);
+  for (uint b = 0; b < range.listed; ++b) block_closest(list + range.first_listed, b * BLOCK_STRIDE, ray, &hit);
+  hits[i] = mesh_hit(list + range.first_listed, hit);
+}
+)";
+
+struct MeshRange {
+  cl_uint first_node, first_block, first_listed, listed;
+};
+
+std::vector<KdTree> built(const std::vector<TriangleMesh>& meshes, unsigned threads, TriangleTest test) {
+  std::vector<KdTree> trees;
+  for (const auto& mesh : meshes) {
+    trees.push_back(build_kdtree({mesh, {}}, threads));
+    if (trees.back().nodes.size() * 8 > step_limit) throw std::logic_error("a mesh is too large for its set");
+    if (test == TriangleTest::precomputed) add_triangle_transforms(trees.back(), threads);
+  }
+  return trees;
+}
+
+}  // namespace
+
+Vec3 triangle_vertex(const TreeTriangle& triangle, int vertex) {
+  const auto& p = triangle.position[vertex];
+  return {p[0], p[1], p[2]};
+}
+
+MeshRay make_mesh_ray(Vec3 origin, Vec3 target, std::size_t mesh) {
+  MeshRay ray{{}, {}, INFINITY, static_cast<std::uint32_t>(mesh)};
+  for (int k = 0; k < 3; ++k) ray.origin[k] = static_cast<float>(origin[k]);
+  const Vec3 from{ray.origin[0], ray.origin[1], ray.origin[2]};
+  const Vec3 direction = target == from ? Vec3{0, 0, 1} : normalize(target - from);
+  for (int k = 0; k < 3; ++k) ray.direction[k] = static_cast<float>(direction[k]);
+  return ray;
+}
+
+std::string triangle_test_define(TriangleTest test) {
+  return test == TriangleTest::precomputed ? "#define TRIANGLES_PRECOMPUTED\n" : "";
+}
+
+std::vector<TriangleBlock> blocks_in_order(const TriangleMesh& mesh, TriangleTest test) {
+  KdTree list;
+  list.blocks.resize((mesh.size() + 7) / 8);
+  for (std::size_t i = 0; i < list.blocks.size() * 8; ++i) {
+    auto& block = list.blocks[i / 8];
+    block.primitive[i % 8] = i < mesh.size() ? static_cast<std::uint32_t>(i) : BLOCK_EMPTY;
+    for (int v = 0; v < 3; ++v)
+      for (int k = 0; k < 3; ++k)
+        block.position[v][k][i % 8] = i < mesh.size() ? mesh[i].position[v][k] : NAN;
+  }
+  if (test == TriangleTest::precomputed) add_triangle_transforms(list, 1);
+  return list.blocks;
+}
+
+MeshSet::MeshSet(CheckContext& context, std::vector<TriangleMesh> meshes, TriangleTest triangle_test)
+    : meshes_(std::move(meshes)),
+      trees_(built(meshes_, context.threads, triangle_test)),
+      program_(context.program(triangle_test_define(triangle_test) + source, EFFECT_TRIANGLES)),
+      closest_(context, program_, "mesh_closest"),
+      occluded_(context, program_, "mesh_occluded"),
+      brute_force_(context, program_, "mesh_brute_force") {
+  std::vector<MeshRange> ranges;
+  std::vector<KdNode> nodes;
+  std::vector<TriangleBlock> blocks, list;
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    const auto listed = blocks_in_order(meshes_[i], triangle_test);
+    ranges.push_back({static_cast<cl_uint>(nodes.size()), static_cast<cl_uint>(blocks.size()),
+                      static_cast<cl_uint>(list.size()), static_cast<cl_uint>((meshes_[i].size() + 7) / 8)});
+    nodes.insert(nodes.end(), trees_[i].nodes.begin(), trees_[i].nodes.end());
+    blocks.insert(blocks.end(), trees_[i].blocks.begin(), trees_[i].blocks.end());
+    list.insert(list.end(), listed.begin(), listed.end());
+  }
+  Device& device = context.device;
+  ranges_ = device.upload(ranges, "ranges of meshes");
+  nodes_ = device.upload(nodes, "tree nodes");
+  blocks_ = device.upload(blocks, "triangle blocks");
+  list_ = device.upload(list, "triangle blocks");
+}
+
+std::vector<MeshHit> MeshSet::closest(const std::vector<MeshRay>& rays) {
+  return closest_.with(ranges_, nodes_, blocks_, list_).run<MeshHit>(rays);
+}
+
+std::vector<std::uint32_t> MeshSet::occluded(const std::vector<MeshRay>& rays) {
+  return occluded_.with(ranges_, nodes_, blocks_, list_).run<std::uint32_t>(rays);
+}
+
+std::vector<MeshHit> MeshSet::brute_force(const std::vector<MeshRay>& rays) {
+  return brute_force_.with(ranges_, nodes_, blocks_, list_).run<MeshHit>(rays);
+}
+
+}  // namespace causticl
