@@ -35,11 +35,11 @@ kernel void mesh_spawn(global const OutgoingRay *in, global SpawnedRay *out, uin
   Ray ray = {load3(in[i].origin), load3(in[i].direction)};
   SpawnedRay spawned = spawned_none();
   Hit hit = {INFINITY, HIT_NONE, 0, 0, 0}, again = hit;
-  if (block_closest(blocks, in[i].shape, sheared_ray(ray), &hit)) {
+  if (block_closest(blocks, in[i].shape, triangle_ray(ray), &hit)) {
     Surface surface;
     triangle_surface(blocks, attributes, hit, &surface);
     Ray next = spawn(surface, hit.t, load3(in[i].way), in[i].sine, &spawned);
-    if (block_closest(blocks, in[i].shape, sheared_ray(next), &again)) spawned.again = again.t;
+    if (block_closest(blocks, in[i].shape, triangle_ray(next), &again)) spawned.again = again.t;
     spawned.same_face = again.primitive == hit.primitive;
   }
   out[i] = spawned;
