@@ -1,5 +1,7 @@
-// How a surface scatters: Lambert, perfect mirror, smooth dielectric.
+// How a surface scatters: Lambert, perfect mirror, dielectric and conductor, smooth or rough, coated Lambert.
 #include "effects.h"
+#include "fresnel.cl"
+#include "microfacet.cl"
 #include "ray.cl"
 #include "texture.cl"
 #include "types.h"
@@ -9,35 +11,29 @@
 typedef struct {
   uint kind;  // MATERIAL_DIFFUSE ...
   real3 color;
-  real ior;   // inside / outside
+  real ior;      // inside / outside
+  real alpha;    // of a rough lobe; 0 for a perfectly specular one
+  real3 eta, k;  // conductor: complex index inside / outside
+  real inner;    // plastic: diffuse reflectance of the boundary from inside
+  bool coated;   // a Lambert lobe under the boundary of plastic
 } Bsdf;
 
 INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
                     real2 uv) {
-  Bsdf bsdf = {material->kind, convert_real3(material->color.xyz), material->color.w};
+  Bsdf bsdf = {material->kind, convert_real3(material->color.xyz), material->color.w, 0,
+               (real3)(0, 0, 0), (real3)(0, 0, 0), 0, false};
+  if (HAS(EFFECT_ROUGH)) bsdf.alpha = lobe_alpha(material->alpha, bsdf.kind == MATERIAL_GLASS ? bsdf.ior : 0);
+  if (HAS(EFFECT_CONDUCTOR)) {
+    bsdf.eta = convert_real3(material->eta.xyz);
+    bsdf.k = convert_real3(material->k.xyz);
+  }
+  if (HAS(EFFECT_PLASTIC)) bsdf.inner = material->eta.w;
   if (HAS(EFFECT_TEXTURES) && material->color_texture != 0) {
     real4 texel = texture_lookup(textures + material->color_texture - 1, texels, uv);
     bsdf.color = texel.xyz;
     if ((material->flags & MATERIAL_ALPHA_DIFFUSE) && texel.w > 0) bsdf.kind = MATERIAL_DIFFUSE;
   }
   return bsdf;
-}
-
-// Reflectance of unpolarised light at a smooth boundary; `cosine` is that of the angle of incidence, eta the
-// index beyond over the index before the boundary. Sets *cosine_t, that of the refracted angle; total
-// reflection returns 1 and leaves it 0. (Born & Wolf, section 1.5.2)
-INLINE real fresnel_dielectric(real cosine, real eta, real *cosine_t) {
-  cosine = clamp(cosine, (real)0, (real)1);
-  // eta^2 - sin^2 in a form that cancels nothing: grazing rays and nearly equal indices stay exact.
-  real square = (eta - 1) * (eta + 1) + cosine * cosine;
-  // Between equal indices nothing is reflected or bent, also at grazing incidence, where the square underflows.
-  *cosine_t = eta == 1 ? cosine : 0;
-  if (square <= 0) return eta == 1 ? 0 : 1;
-  real c = sqrt(square) / eta;
-  *cosine_t = fmin(c, (real)1);
-  real parallel = (eta * cosine - c) / (eta * cosine + c);
-  real perpendicular = (cosine - eta * c) / (cosine + eta * c);
-  return (real)0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
 // The shading normal on the side of the surface that `direction` arrives at. Where interpolation tilted it
@@ -63,6 +59,8 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
   // A direction under the true surface, which only a shading normal can give, carries nothing.
   bool same_side = dot(sample.direction, surface->geometric_normal) * dot(arriving, surface->geometric_normal) < 0;
   sample.weight = same_side ? bsdf->color : (real3)(0, 0, 0);
+  if (HAS(EFFECT_PLASTIC) && bsdf->coated)
+    sample.weight *= fresnel_transmittance(dot(sample.direction, n), bsdf->ior);
   return sample;
 }
 
@@ -109,14 +107,127 @@ INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d
   return sample;
 }
 
+// Whether light sampling can find the lobe, and its density weighs against that of lights.
+INLINE bool bsdf_is_rough(const Bsdf *bsdf) {
+  return HAS(EFFECT_ROUGH) && bsdf->kind != MATERIAL_DIFFUSE && bsdf->alpha > 0;
+}
+
+// What the reflection of a conductor, mirror or coat is tinted by where `cosine` is that of incidence.
+INLINE real3 specular_tint(const Bsdf *bsdf, real cosine) {
+  if (HAS(EFFECT_CONDUCTOR) && bsdf->kind == MATERIAL_CONDUCTOR)
+    return (real3)(fresnel_conductor(cosine, bsdf->eta.x, bsdf->k.x),
+                   fresnel_conductor(cosine, bsdf->eta.y, bsdf->k.y),
+                   fresnel_conductor(cosine, bsdf->eta.z, bsdf->k.z));
+  if (HAS(EFFECT_PLASTIC) && bsdf->kind == MATERIAL_PLASTIC)
+    return bsdf->color * (1 - fresnel_transmittance(cosine, bsdf->ior));
+  return bsdf->color;
+}
+
+// Where a path that arrives from v (in the local frame of microfacet.cl) meets microfacets.
+typedef struct {
+  real3 tangent, bitangent, n;
+  real3 v;
+  real eta;  // index beyond / before
+} Facing;
+
+INLINE Facing facing_frame(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n) {
+  Facing facing;
+  orthonormal_basis(n, &facing.tangent, &facing.bitangent);
+  facing.n = n;
+  facing.v = -(real3)(dot(arriving, facing.tangent), dot(arriving, facing.bitangent), dot(arriving, n));
+  facing.v.z = fmax(facing.v.z, GRAZING_COSINE);
+  facing.eta = dot(surface->geometric_normal, arriving) < 0 ? bsdf->ior : 1 / bsdf->ior;
+  return facing;
+}
+
+// Weight and density of the direction `leaving` off microfacets with the normal h, both in the local frame.
+INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leaving, real3 h, bool radiance) {
+  BsdfSample sample = {leaving, (real3)(0, 0, 0), 0};
+  real cosine = fmin(dot(facing->v, h), (real)1), cosine_t;
+  if (!(cosine > 0)) return sample;
+  real density = ggx_visible_density(facing->v, h, bsdf->alpha);
+  real shadowing = ggx_shadowing(facing->v, leaving, bsdf->alpha);
+  if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS) {
+    real reflectance = fresnel_dielectric(cosine, facing->eta, &cosine_t);
+    sample.weight = bsdf->color * shadowing;
+    if (leaving.z > 0) {
+      sample.pdf = reflectance * density * (real)0.25f;
+    } else {
+      sample.pdf = (1 - reflectance) * density * refraction_jacobian(cosine, cosine_t, facing->eta);
+      if (radiance) sample.weight = sample.weight / (facing->eta * facing->eta);
+    }
+  } else if (leaving.z > 0) {
+    sample.weight = specular_tint(bsdf, cosine) * shadowing;
+    sample.pdf = density * (real)0.25f;
+  }
+  return sample;
+}
+
+// The lobe in a direction that light sampling chose: weight * pdf is BSDF * cosine, pdf that of bsdf_sample.
+INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real3 direction) {
+  Facing facing = facing_frame(bsdf, surface, arriving, n);
+  real3 leaving = (real3)(dot(direction, facing.tangent), dot(direction, facing.bitangent), dot(direction, n));
+  real3 h = microfacet_normal(facing.v, leaving, facing.eta);
+  // A shading normal may see a direction on the other side than the true surface does: nothing goes there. Nor does
+  // a microfacet refract what would leave on the side that it came from (Walter et al. 2007, section 4.2).
+  real3 g = surface->geometric_normal;
+  bool reflected = dot(direction, g) * dot(arriving, g) < 0;
+  if (reflected != leaving.z > 0 || (!reflected && !(dot(leaving, h) < 0))) {
+    BsdfSample nothing = {direction, (real3)(0, 0, 0), 0};
+    return nothing;
+  }
+  return rough_lobe(bsdf, &facing, leaving, h, true);
+}
+
+// Reflects off or refracts through a visible microfacet. Paths that end under the surface, where light would
+// scatter more than once, carry nothing.
+INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real4 random,
+                               bool radiance) {
+  Facing facing = facing_frame(bsdf, surface, arriving, n);
+  real3 v = facing.v, h = ggx_visible_normal(v, bsdf->alpha, random.xy);
+  real cosine = fmin(dot(v, h), (real)1), cosine_t;
+  bool refracts = HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS &&
+                  random.z >= fresnel_dielectric(cosine, facing.eta, &cosine_t);
+  real3 leaving = normalize(refracts ? (cosine / facing.eta - cosine_t) * h - v / facing.eta : 2 * cosine * h - v);
+  BsdfSample sample = rough_lobe(bsdf, &facing, leaving, h, radiance);
+  sample.direction = normalize(leaving.x * facing.tangent + leaving.y * facing.bitangent + leaving.z * n);
+  real3 g = surface->geometric_normal;
+  bool reflected = dot(sample.direction, g) * dot(arriving, g) < 0;
+  if (refracts == leaving.z > 0 || refracts == reflected) sample.weight = (real3)(0, 0, 0);
+  return sample;
+}
+
+// Plastic is a dielectric boundary over a Lambert base that sends light back and forth between them: its base
+// reflects c T(in) T(out) / (pi eta^2 (1 - c inner)), T the boundary's transmittance (Ashikhmin & Shirley 2000, with
+// the sum over inner reflections of Kubelka 1942). Makes the material one of its lobes, chosen by `random`, its
+// weight divided by the probability.
+INLINE void plastic_choose(Bsdf *bsdf, real3 arriving, real3 n, real random) {
+  real transmittance = fresnel_transmittance(-dot(arriving, n), bsdf->ior);
+  real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->inner));
+  real coat = 1 - transmittance, share = coat + max_component(base);
+  coat = share > 0 ? coat / share : 1;
+  if (random < coat) {
+    bsdf->color = (real3)(1, 1, 1) / coat;
+  } else {
+    bsdf->kind = MATERIAL_DIFFUSE;
+    bsdf->coated = true;
+    bsdf->color = base / (1 - coat);
+  }
+}
+
 // Draws where a path that arrives along `direction` goes on. `radiance` is true on camera paths.
 INLINE BsdfSample bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random,
                               bool radiance) {
   real3 n = facing_normal(surface, direction);
+  if (bsdf_is_rough(bsdf)) return rough_sample(bsdf, surface, direction, n, random, radiance);
   if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS)
     return glass_sample(bsdf, surface, direction, n, random, radiance);
   if (HAS(EFFECT_MIRROR) && bsdf->kind == MATERIAL_MIRROR) {
     BsdfSample sample = {mirror_direction(surface, direction, n), bsdf->color, 0};
+    return sample;
+  }
+  if (HAS(EFFECT_CONDUCTOR | EFFECT_PLASTIC) && bsdf->kind != MATERIAL_DIFFUSE) {
+    BsdfSample sample = {mirror_direction(surface, direction, n), specular_tint(bsdf, -dot(direction, n)), 0};
     return sample;
   }
   return diffuse_sample(bsdf, surface, direction, n, random);
@@ -146,7 +257,7 @@ INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
   return clamp(shading / fmax(fabs(geometric), (real)1e-6f), (real)0, (real)4);
 }
 
-// The same for departure of a photon in `direction` from a Lambert surface that was sampled about n.
+// The same for departure of a photon in `direction` from a Lambert or rough surface that was sampled about n.
 INLINE real shading_normal_departure(const Surface *surface, real3 direction, real3 n) {
   real geometric = fabs(dot(direction, surface->geometric_normal));
   real shading = fabs(dot(direction, n));

@@ -1,12 +1,57 @@
-// Direct light at a diffuse point by one shadow ray.
+// Direct light by one shadow ray, and how it shares the light with rays that meet an emitter by BSDF sampling.
 #include "light.cl"
 
-// Reflected radiance from one emitter at a Lambert point (`reflectance` = albedo / pi) with facing normal n.
-// `arriving` is the direction of the path that found the point. With `weigh_bsdf`, the sample is weighted
-// against BSDF sampling by the power heuristic (Veach 1997, 9.2). Adds the rays that it traced to *rays and what
-// befell them to `counters`.
-static real3 direct_light(const Scene *scene, const Surface *surface, real3 arriving, real3 n, real3 reflectance,
-                          real4 random, bool weigh_bsdf, uint *rays,
+// The power heuristic for two densities (Veach 1997, 9.2), as a ratio, since the square of a small far light's
+// density overflows.
+INLINE real power_weight(real pdf, real other_pdf) {
+  real ratio = other_pdf / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
+// Whether something lies between the ray's origin and the light. Adds the ray to *rays and what befell it to
+// `counters`.
+INLINE bool shadowed(const Scene *scene, Ray shadow, LightSample light, uint *rays,
+                     volatile global Counters *counters) {
+  ++*rays;
+  uint faults = 0;
+  bool occluded = geometry_occluded(&scene->geometry, shadow, light.distance - light.margin, &faults);
+  count_faults(faults, counters);
+  return occluded;
+}
+
+// A light sample for a point with a rough lobe. Glass is lit from both sides: where the direction from one side's
+// origin leads to the other, it is drawn again, by the same numbers, from the origin there.
+INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 facing,
+                                      real4 random, real3 *origin) {
+  *origin = offset_origin(surface->position, surface->error, facing, facing);
+  LightSample light = light_sample(scene, *origin, random);
+  if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS && dot(light.direction, facing) < 0) {
+    *origin = offset_origin(surface->position, surface->error, facing, -facing);
+    light = light_sample(scene, *origin, random);
+    if (!(dot(light.direction, facing) < 0)) light.weight = (real3)(0, 0, 0);
+  }
+  return light;
+}
+
+// Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling.
+static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n,
+                                real3 throughput, real4 random, uint *rays,
+                                volatile global Counters *counters) {
+  real3 g = surface->geometric_normal, origin;
+  LightSample light = light_sample_rough(scene, bsdf, surface, dot(arriving, g) < 0 ? g : -g, random, &origin);
+  if (!(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
+  BsdfSample lobe = rough_evaluate(bsdf, surface, arriving, n, light.direction);
+  if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
+  Ray shadow = {origin, light.direction};
+  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  return throughput * lobe.weight * light.weight * (lobe.pdf * power_weight(light.pdf, lobe.pdf));
+}
+
+// Reflected radiance from one emitter at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes
+// its share of what arrives) with facing normal n. `arriving` is the direction of the path that found the point.
+// With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
+static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n,
+                          real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
                           volatile global Counters *counters) {
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
@@ -18,16 +63,16 @@ static real3 direct_light(const Scene *scene, const Surface *surface, real3 arri
   bool same_side = dot(light.direction, g) * dot(arriving, g) < 0;
   if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
-  ++*rays;
-  uint faults = 0;
-  bool occluded = geometry_occluded(&scene->geometry, shadow, light.distance - light.margin, &faults);
-  count_faults(faults, counters);
-  if (occluded) return (real3)(0, 0, 0);
+  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
   real weight = 1;
-  if (weigh_bsdf) {
-    // As a ratio, since the square of a small far light's density overflows.
-    real ratio = cosine * INV_PI / light.pdf;
-    weight = 1 / (1 + ratio * ratio);
-  }
+  if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
+  if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
   return reflectance * light.weight * (cosine * weight);
+}
+
+// What radiance that a BSDF sample found at an emissive surface counts for beside light sampling; bsdf_pdf is the
+// density of the ray's direction.
+INLINE real emission_weight(const Scene *scene, Ray ray, Hit hit, const Surface *surface,
+                            global const Material *material, real bsdf_pdf) {
+  return power_weight(bsdf_pdf, light_pdf(scene, ray.origin, ray.direction, hit, surface, material));
 }

@@ -15,7 +15,11 @@
 #define EFFECT_LENS (1u << 8)        // a lens of non-zero radius
 #define EFFECT_SHADOW_RAYS (1u << 9) // direct light by shadow rays
 
-#define EFFECT_ALL ((1u << 10) - 1u)
+#define EFFECT_ROUGH (1u << 10)      // glass, conductors or plastic with roughness
+#define EFFECT_CONDUCTOR (1u << 11)
+#define EFFECT_PLASTIC (1u << 12)
+
+#define EFFECT_ALL ((1u << 13) - 1u)
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)
 #endif

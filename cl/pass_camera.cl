@@ -1,11 +1,12 @@
-// Camera paths of SPPM: from the lens through mirrors and glass to the first diffuse surface.
+// Camera paths of SPPM: from the lens by mirrors, glass and rough lobes to the first diffuse surface.
 #include "camera.cl"
 #include "direct.cl"
 #include "grid.cl"
 
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
-// comes by a shadow ray where the program was built for that, else from photons.
+// comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
+// lobes reflect is found by shadow rays too, weighted against the rays that meet it.
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params) {
   uint index = get_global_id(0);
@@ -22,6 +23,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   uint rays = 0;
+  real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
   for (uint depth = 0; depth <= params.max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
@@ -31,18 +33,24 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
     Surface surface;
     geometry_surface(&scene.geometry, ray, hit, &surface);
     global const Material *material = materials + surface.material;
-    radiance += throughput * emission_at(material, &surface, ray.direction);
+    real3 emission = emission_at(material, &surface, ray.direction);
+    if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
+      emission *= emission_weight(&scene, ray, hit, &surface, material, bsdf_pdf);
+    radiance += throughput * emission;
     if (depth == params.max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, textures, texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    real4 random = random_at(stream, depth, DIM_BSDF);
+    if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
+      plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (bsdf.kind == MATERIAL_DIFFUSE) {
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
       if (HAS(EFFECT_SHADOW_RAYS) && params.emitter_count > 0)
-        radiance += direct_light(&scene, &surface, ray.direction, n, weight, random_at(stream, depth, DIM_LIGHT), false,
-                                 &rays, counters);
+        radiance += direct_light(&scene, &bsdf, &surface, ray.direction, n, weight,
+                                 random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
       point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
       vstore3(surface.position, 0, point.position);
@@ -50,8 +58,14 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
       break;
     }
 
-    real4 random = random_at(stream, depth, DIM_BSDF);
+    bool weigh_lights = HAS(EFFECT_SHADOW_RAYS) && bsdf_is_rough(&bsdf) && params.emitter_count > 0;
+    if (weigh_lights) {
+      real3 n = facing_normal(&surface, ray.direction);
+      radiance += direct_light_rough(&scene, &bsdf, &surface, ray.direction, n, throughput,
+                                     random_at(stream, depth, DIM_LIGHT), &rays, counters);
+    }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
+    bsdf_pdf = weigh_lights ? next.pdf : 0;
     throughput *= next.weight;
     if (!path_survives(&throughput, depth, random.w)) break;
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);

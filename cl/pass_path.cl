@@ -21,23 +21,26 @@ static real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
     real3 emission = emission_at(material, &surface, ray.direction);
     if (max_component(emission) > 0) {
       real weight = 1;
-      if (bsdf_pdf > 0) {
-        real pdf = light_pdf(scene, ray.origin, ray.direction, hit, &surface, material);
-        real ratio = pdf / bsdf_pdf;
-        weight = 1 / (1 + ratio * ratio);
-      }
+      if (bsdf_pdf > 0) weight = emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
       radiance += throughput * emission * weight;
     }
     if (depth == max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    real4 random = random_at(stream, depth, DIM_BSDF);
+    if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
+      plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light(scene, &surface, ray.direction, n, throughput * bsdf.color * INV_PI,
+      radiance += direct_light(scene, &bsdf, &surface, ray.direction, n, throughput * bsdf.color * INV_PI,
                                random_at(stream, depth, DIM_LIGHT), true, rays, counters);
     }
-    real4 random = random_at(stream, depth, DIM_BSDF);
+    if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0) {
+      real3 n = facing_normal(&surface, ray.direction);
+      radiance += direct_light_rough(scene, &bsdf, &surface, ray.direction, n, throughput,
+                                     random_at(stream, depth, DIM_LIGHT), rays, counters);
+    }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
     if (!path_survives(&throughput, depth, random.w)) break;

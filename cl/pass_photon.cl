@@ -43,20 +43,23 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
 
     real before = max_component(flux);
 
-    if (bsdf.kind == MATERIAL_DIFFUSE) {
+    bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC;
+    if (bsdf.kind == MATERIAL_DIFFUSE || plastic) {
       // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more.
       // Only where all is black, as on most lamps, are they of no use.
       global const Material *material = materials + surface.material;
-      if (material->color_texture == 0 && !(max_component(bsdf.color) > 0)) break;
-      flux *= shading_normal_arrival(&surface, ray.direction);
+      bool black = material->color_texture == 0 && !(max_component(bsdf.color) > 0);
+      if (black && !plastic) break;
       // With shadow rays the light that arrives straight from an emitter is counted there.
-      if (!(HAS(EFFECT_SHADOW_RAYS) && depth == 0)) {
+      if (!(HAS(EFFECT_SHADOW_RAYS) && depth == 0) && !black) {
+        real3 landed = flux * shading_normal_arrival(&surface, ray.direction);
+        if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
         real4 dither = random_at(stream, depth, DIM_QUANTISE);
         bool saturated = false;
-        uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
-             b = flux_quantise(flux.z, dither.z, &saturated);
+        uint r = flux_quantise(landed.x, dither.x, &saturated), g = flux_quantise(landed.y, dither.y, &saturated),
+             b = flux_quantise(landed.z, dither.z, &saturated);
         if (saturated) atomic_inc(&counters->saturated);
-        if (isfinite(flux.x + flux.y + flux.z + surface.position.x + surface.position.y + surface.position.z)) {
+        if (isfinite(landed.x + landed.y + landed.z + surface.position.x + surface.position.y + surface.position.z)) {
           uint slot = counters->photons < PHOTON_COUNT_LIMIT ? atomic_inc(&counters->photons) : PHOTON_COUNT_LIMIT;
           if (slot < params.photon_capacity) {
             bool front = dot(surface.geometric_normal, ray.direction) < 0;
@@ -73,8 +76,12 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
     }
     if (depth + 1 == params.max_depth) break;
 
+    if (plastic) plastic_choose(&bsdf, ray.direction, n, random.z);
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
-    if (bsdf.kind == MATERIAL_DIFFUSE) next.weight *= shading_normal_departure(&surface, next.direction, n);
+    if (bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf)) {
+      flux *= shading_normal_arrival(&surface, ray.direction);
+      next.weight *= shading_normal_departure(&surface, next.direction, n);
+    }
     // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
     flux *= next.weight;
     real survival = fmin(max_component(flux) / before, (real)1);

@@ -47,6 +47,8 @@ CHECK_SIZE(Camera, 96);
 #define MATERIAL_DIFFUSE 0u
 #define MATERIAL_MIRROR 1u
 #define MATERIAL_GLASS 2u
+#define MATERIAL_CONDUCTOR 3u
+#define MATERIAL_PLASTIC 4u  // a dielectric boundary over a Lambert base
 
 #define MATERIAL_TWO_SIDED 1u      // emits on both sides
 #define MATERIAL_ALPHA_DIFFUSE 2u  // texels with alpha > 0 are diffuse, whatever `kind` says (base format)
@@ -54,12 +56,13 @@ CHECK_SIZE(Camera, 96);
 typedef struct {
   float4 color;        // reflectance; w: index of refraction inside / outside
   float4 emission;     // emitted radiance
+  float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside
   uint kind;           // MATERIAL_DIFFUSE ...
   uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE
   uint color_texture;  // 1 + index into textures, 0 for none: then replaces `color`
-  uint unused;
+  float alpha;         // GGX width of a rough lobe
 } Material;
-CHECK_SIZE(Material, 48);
+CHECK_SIZE(Material, 80);
 
 #define TEXTURE_IMAGE 0u
 #define TEXTURE_CHECKER 1u

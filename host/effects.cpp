@@ -52,6 +52,11 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_GLASS, "glass", by_material(scene, MaterialSpec::Kind::glass, "glass")},
       {EFFECT_LENS, "depth of field", scene.camera.aperture > 0 ? "camera aperture" : ""},
       {EFFECT_SHADOW_RAYS, "direct light by shadow rays", shadow_rays_reason(scene)},
+      {EFFECT_ROUGH, "rough lobes",
+       first_object(scene, "roughness of",
+                    [&](const Object& object) { return scene.materials[object.material].roughness > 0; })},
+      {EFFECT_CONDUCTOR, "conductors", by_material(scene, MaterialSpec::Kind::conductor, "conductor")},
+      {EFFECT_PLASTIC, "plastic", by_material(scene, MaterialSpec::Kind::plastic, "plastic")},
   };
 }
 

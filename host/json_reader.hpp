@@ -25,6 +25,7 @@ constexpr NumberRange positive_number{1e-12, 1e12, "a positive number from 1e-12
 constexpr NumberRange non_negative_number{0, 1e12, "a number from 0 to 1e12"};
 constexpr NumberRange unit_number{0, 1, "a number from 0 to 1"};
 constexpr NumberRange refractive_index{0.01, 100, "a refractive index from 0.01 to 100"};
+constexpr NumberRange extinction_coefficient{0, 100, "an extinction coefficient from 0 to 100"};
 constexpr NumberRange open_unit_number{0, 1, "a number between 0 and 1, both excluded", true};
 
 /// A value of a document with its JSON pointer. Cheap to copy; the document must outlive it.

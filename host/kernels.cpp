@@ -14,7 +14,8 @@ namespace {
 
 constexpr unsigned geometry_effects =
     EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
-constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS;
+constexpr unsigned shading_effects =
+    EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH | EFFECT_CONDUCTOR | EFFECT_PLASTIC;
 
 /// The effects that the kernels of each pass ask for with HAS().
 const std::map<std::string, unsigned> effects_read{

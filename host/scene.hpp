@@ -25,14 +25,16 @@ struct TextureSpec {
 };
 
 struct MaterialSpec {
-  enum class Kind { diffuse, mirror, glass };
+  enum class Kind { diffuse, mirror, glass, conductor, plastic };
   Kind kind = Kind::diffuse;
   Color color{1, 1, 1};
   int color_texture = -1;      // index into Scene::textures; replaces `color`
   bool alpha_diffuse = false;  // base format: texels with alpha > 0 are diffuse whatever `kind` says
   Color emission;              // radiance
   bool two_sided = false;      // emits on both sides
-  double ior = 1.5;            // glass: the index inside; Scene::outside_ior is around it
+  double ior = 1.5;            // glass, plastic: the index inside; Scene::outside_ior is around it
+  Color eta, k;                // conductor: real and imaginary part of the index
+  double roughness = 0;        // glass, conductor, plastic: the square root of GGX's alpha
 };
 
 struct Object {

@@ -51,13 +51,21 @@ int read_color_texture(const JsonReader& json, SceneLoader& loader) {
 
 int read_material(const JsonReader& json, SceneLoader& loader) {
   if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
-  const std::vector<std::string> names{"diffuse", "mirror", "glass"};
+  using Kind = MaterialSpec::Kind;
   MaterialSpec material;
-  material.kind = static_cast<MaterialSpec::Kind>(json.at("type").choice(names, {"conductor", "plastic"}));
-  if (material.kind == MaterialSpec::Kind::glass)
-    json.check_keys({"type", "color", "emission", "two_sided", "ior"}, {"cauchy", "absorption", "roughness"});
-  else
-    json.check_keys({"type", "color", "emission", "two_sided"}, {"roughness"});
+  material.kind =
+      static_cast<Kind>(json.at("type").choice({"diffuse", "mirror", "glass", "conductor", "plastic"}));
+  if (material.kind == Kind::conductor) {
+    json.check_keys({"type", "eta", "k", "emission", "two_sided", "roughness"});
+    material.eta = read_vector(json.at("eta"), refractive_index);
+    material.k = read_vector(json.at("k"), extinction_coefficient);
+  } else if (material.kind == Kind::glass) {
+    json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"}, {"cauchy", "absorption"});
+  } else if (material.kind == Kind::plastic) {
+    json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"});
+  } else {
+    json.check_keys({"type", "color", "emission", "two_sided"});
+  }
   if (const auto color = json.find("color")) {
     if (color->has("type"))
       material.color_texture = read_color_texture(*color, loader);
@@ -67,6 +75,7 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
   material.emission = read_vector(json, "emission", {}, non_negative_number);
   material.two_sided = json.boolean("two_sided", false);
   material.ior = json.number("ior", loader.glass_ior, refractive_index);
+  material.roughness = json.number("roughness", 0, unit_number);
   return add_material(material, loader);
 }
 

@@ -53,9 +53,13 @@ const char* material_name(MaterialSpec::Kind kind) {
     case MaterialSpec::Kind::mirror:
       return "mirror";
     case MaterialSpec::Kind::glass:
+      return "glass";
+    case MaterialSpec::Kind::conductor:
+      return "conductor";
+    case MaterialSpec::Kind::plastic:
       break;
   }
-  return "glass";
+  return "plastic";
 }
 
 struct Bounds {

@@ -12,13 +12,50 @@ float4 to_float4(Vec3 v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
+/// Share of diffuse light that a smooth boundary to the index `eta` reflects back inside, from what it lets
+/// in from outside by reciprocity. The integral over sin^2 theta by the midpoint rule, to 1e-6.
+double inner_reflectance(double eta) {
+  constexpr int steps = 10000;
+  double entering = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double cosine = std::sqrt((i + 0.5) / steps), square = (eta - 1) * (eta + 1) + cosine * cosine;
+    if (square <= 0) continue;
+    const double c = std::sqrt(square) / eta;
+    const double parallel = (eta * cosine - c) / (eta * cosine + c);
+    const double perpendicular = (cosine - eta * c) / (cosine + eta * c);
+    entering += (1 - 0.5 * (parallel * parallel + perpendicular * perpendicular)) / steps;
+  }
+  return 1 - entering / (eta * eta);
+}
+
+uint material_kind(MaterialSpec::Kind kind) {
+  switch (kind) {
+    case MaterialSpec::Kind::diffuse:
+      return MATERIAL_DIFFUSE;
+    case MaterialSpec::Kind::mirror:
+      return MATERIAL_MIRROR;
+    case MaterialSpec::Kind::glass:
+      return MATERIAL_GLASS;
+    case MaterialSpec::Kind::conductor:
+      return MATERIAL_CONDUCTOR;
+    case MaterialSpec::Kind::plastic:
+      break;
+  }
+  return MATERIAL_PLASTIC;
+}
+
 Material device_material(const MaterialSpec& spec, double outside_ior) {
   Material result{};
   result.color = to_float4(spec.color, spec.ior / outside_ior);
   result.emission = to_float4(spec.emission);
-  result.kind = spec.kind == MaterialSpec::Kind::diffuse  ? MATERIAL_DIFFUSE
-                : spec.kind == MaterialSpec::Kind::mirror ? MATERIAL_MIRROR
-                                                          : MATERIAL_GLASS;
+  if (spec.kind == MaterialSpec::Kind::conductor) {
+    result.eta = to_float4(1 / outside_ior * spec.eta);
+    result.k = to_float4(1 / outside_ior * spec.k);
+  } else if (spec.kind == MaterialSpec::Kind::plastic) {
+    result.eta.w = static_cast<float>(inner_reflectance(spec.ior / outside_ior));
+  }
+  result.alpha = static_cast<float>(spec.roughness * spec.roughness);
+  result.kind = material_kind(spec.kind);
   result.flags =
       (spec.two_sided ? MATERIAL_TWO_SIDED : 0u) | (spec.alpha_diffuse ? MATERIAL_ALPHA_DIFFUSE : 0u);
   result.color_texture = static_cast<uint>(spec.color_texture + 1);

@@ -8,7 +8,7 @@ source "$(dirname "$0")/common.sh"
 set_up "${build_packages[@]}" oclgrind
 build build causticl
 scenes=("$@")
-[ $# -gt 0 ] || scenes=("$root"/scenes/*.json)
+[ $# -gt 0 ] || scenes=("$root"/scenes/{,effects/}*.json)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failed=0

@@ -291,13 +291,21 @@ inline constexpr BadScene bad_scenes[] = {
     {"material is a number", "\"material\": \"white\"", "\"material\": 0",
      "scene.json:7: /objects/0/material: expected the name of a material, or an object, got 0"},
     {"unknown material type", "\"diffuse\", \"color\"", "\"difuse\", \"color\"",
-     "scene.json:5: /materials/white/type: expected \"diffuse\", \"mirror\" or \"glass\", got \"difuse\"; "
-     "did you mean \"diffuse\"?"},
-    {"conductor", "\"diffuse\", \"color\"", "\"conductor\", \"color\"",
-     "scene.json:5: /materials/white/type: \"conductor\" is not supported yet; use \"diffuse\", \"mirror\" "
-     "or \"glass\""},
-    {"rough glass", "\"diffuse\", \"color\"", "\"glass\", \"roughness\": 0.1, \"color\"",
-     "scene.json:5: /materials/white/roughness: key \"roughness\" is not supported yet; remove it"},
+     "scene.json:5: /materials/white/type: expected \"diffuse\", \"mirror\", \"glass\", \"conductor\" or "
+     "\"plastic\", got \"difuse\"; did you mean \"diffuse\"?"},
+    {"conductor with a colour", "\"diffuse\", \"color\"",
+     "\"conductor\", \"eta\": [1, 1, 1], \"k\": [3, 3, 3], \"color\"",
+     "scene.json:5: /materials/white/color: unknown key \"color\"; use one of \"type\", \"eta\", \"k\", "
+     "\"emission\", \"two_sided\" or \"roughness\""},
+    {"conductor without k", "\"diffuse\", \"color\"", "\"conductor\", \"eta\"",
+     "scene.json:5: /materials/white/k: expected a vector, got nothing; the key is required"},
+    {"negative k", "\"diffuse\", \"color\"", "\"conductor\", \"k\": [1, -1, 1], \"eta\"",
+     "scene.json:5: /materials/white/k/1: expected an extinction coefficient from 0 to 100, got -1"},
+    {"roughness above 1", "\"diffuse\", \"color\"", "\"plastic\", \"roughness\": 1.5, \"color\"",
+     "scene.json:5: /materials/white/roughness: expected a number from 0 to 1, got 1.5"},
+    {"roughness of a mirror", "\"diffuse\", \"color\"", "\"mirror\", \"roughness\": 0.1, \"color\"",
+     "scene.json:5: /materials/white/roughness: unknown key \"roughness\"; use one of \"type\", \"color\", "
+     "\"emission\" or \"two_sided\""},
     {"ior of a mirror", "\"diffuse\", \"color\"", "\"mirror\", \"ior\": 1.5, \"color\"",
      "scene.json:5: /materials/white/ior: unknown key \"ior\"; use one of \"type\", \"color\", \"emission\" "
      "or \"two_sided\""},

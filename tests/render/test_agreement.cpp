@@ -31,14 +31,17 @@ const std::vector<Budget> budgets{
     {"cornell_box.json", 96, 250000, 1024},
     {"furnace.json", 64, 250000, 512},
     {"glass_caustic.json", 12000, 5000, 40000, 32, 24, 0.4},
+    {"effects/rough_metals.json", 400, 60000, 4096, 64, 40},
 };
 
 }  // namespace
 
 TEST_CASE("every shipped scene has a budget here") {
   std::set<std::string> shipped, known;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAUSTICL_SOURCE_DIR) + "/scenes"))
-    if (entry.path().extension() == ".json") shipped.insert(entry.path().filename().string());
+  const std::filesystem::path folder = std::string(CAUSTICL_SOURCE_DIR) + "/scenes";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".json")
+      shipped.insert(entry.path().lexically_relative(folder).generic_string());
   for (const auto& budget : budgets) known.insert(budget.scene);
   CHECK(shipped == known);
 }

@@ -6,12 +6,17 @@ namespace causticl {
 
 std::vector<Check> stability_checks() {
   std::vector<Check> all;
-  for (const auto& group :
-       {sphere_checks(),          triangle_checks(),       needle_checks(),      slab_checks(),
-        kdtree_checks(),          spawned_ray_checks(),    placement_checks(),   bezier_checks(),
-        sampling_checks(),        light_sampling_checks(), light_point_checks(), fresnel_checks(),
-        rough_lobe_checks(),      energy_checks(),         sum_checks(),         photon_grid_checks(),
-        execution_order_checks(), random_number_checks(),  non_finite_checks(),  arithmetic_checks()})
+  for (const auto& group : {sphere_checks(),        triangle_checks(),
+                            needle_checks(),        slab_checks(),
+                            kdtree_checks(),        spawned_ray_checks(),
+                            placement_checks(),     bezier_checks(),
+                            sampling_checks(),      light_sampling_checks(),
+                            light_point_checks(),   fresnel_checks(),
+                            rough_lobe_checks(),    rough_lobe_sampling_checks(),
+                            energy_checks(),        sum_checks(),
+                            photon_grid_checks(),   execution_order_checks(),
+                            random_number_checks(), non_finite_checks(),
+                            arithmetic_checks()})
     all.insert(all.end(), group.begin(), group.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const Check& a, const Check& b) { return a.hard_case < b.hard_case; });
