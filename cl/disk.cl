@@ -5,12 +5,14 @@
 INLINE real disk_intersect(global const Shape *shape, Ray ray, real t_max) {
   real t = plane_intersect(shape, ray, t_max);
   if (!(t < t_max)) return INFINITY;
-  real3 p = transform_point(shape->to_local, fma((real3)(t), ray.direction, ray.origin));
+  // From the centre to the ray's origin first: the difference of near numbers is exact.
+  real3 from_centre = fma((real3)(t), ray.direction, ray.origin - plane_centre(shape));
+  real3 p = transform_vector(shape->to_local, from_centre);
   return p.x * p.x + p.y * p.y <= 1 ? t : (real)INFINITY;
 }
 
 // uv: local x and y, [-1, 1] mapped to [0, 1].
 INLINE void disk_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
   plane_position(shape, ray, hit, surface);
-  surface->uv = transform_point(shape->to_local, surface->position).xy * (real)0.5 + (real)0.5;
+  surface->uv = transform_vector(shape->to_local, surface->position - plane_centre(shape)).xy * (real)0.5 + (real)0.5;
 }

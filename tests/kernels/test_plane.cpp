@@ -30,7 +30,10 @@ TEST_CASE("plane: t, position, normal and uv against double precision on random 
   std::size_t hits = 0, wrong = 0, wrong_t = 0, wrong_surface = 0, wrong_uv = 0, again = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Shape& shape = scene.shapes[i % 1000];
-    const Transform to_local = rows_transform(shape.to_local), to_world = rows_transform(shape.to_world);
+    const Transform to_world = rows_transform(shape.to_world);
+    Transform to_local = rows_transform(shape.to_local);
+    // The plane goes through the image of the origin as stored.
+    to_local.translation = -to_local.vector(to_world.translation);
     const Vec3 row = to_local.rows[2], o = to_vec3(rays[i].origin), d = to_vec3(rays[i].direction);
     const double height = to_local.point(o).z, t = -height / dot(row, d), cosine = dot(row, d) / length(row);
     // The rounding of the four terms of the height, as a distance along the ray.
