@@ -134,9 +134,8 @@ CheckResult closed_sphere(CheckContext& context) {
   return result;
 }
 
-/// A coarse smooth torus of diffuse walls and, inside its tube, a smaller one of mirrors. The lamp is outside
-/// of both and the camera in the tube, or the lamp in the smaller tube and the camera outside: the picture is
-/// black.
+/// A coarse smooth torus of diffuse walls and, inside its tube, a smaller one of mirrors. The camera is in
+/// the tube or outside of it, and lamps are where it is not: the picture is black.
 Scene dark_tube(bool camera_inside, Integrator integrator) {
   Scene scene;
   scene.max_depth = 12;
@@ -147,14 +146,13 @@ Scene dark_tube(bool camera_inside, Integrator integrator) {
                      make_material(Kind::diffuse, 0, 100)};
   scene.meshes = {torus(9, 7, 3, 1), torus(11, 6, 3, 0.4)};
   scene.objects = {make_mesh_object(0, {}, 0), make_mesh_object(1, {}, 1)};
+  for (const double x : {3.0, -2.9}) scene.objects.push_back(make_sphere({x, 0, 0}, 0.1, 2));
   if (camera_inside) {
-    // Of the tube the camera sees its outer wall ahead and the mirrors on its right.
-    scene.objects.push_back(make_sphere({0, 0, 0}, 0.8, 2));
-    scene.objects.push_back(make_sphere({0, 5, 0}, 1, 2));
-    scene.camera = make_camera({3.6, 0.2, 0}, {3.2, 0, -3}, 2);
+    // The camera looks along the mirrors: at grazing incidence shading normals fail first.
+    for (const double y : {0.0, 5.0}) scene.objects.push_back(make_sphere({0, y, 0}, 0.8, 2));
+    scene.camera = make_camera({3.5, 0.1, 0}, {3, 0, -1.6}, 2);
   } else {
-    scene.objects.push_back(make_sphere({2.9, 0, 0}, 0.1, 2));
-    scene.objects.push_back(make_sphere({-2.9, 0, 0}, 0.1, 2));
+    for (const double x : {3.6, -3.5}) scene.objects.push_back(make_sphere({x, 0, 0}, 0.1, 2));
     scene.camera = make_camera({0, 6, 6}, {0, 0, 0}, 1);
   }
   call_for_all_effects(scene, 1, {});
