@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the meshes and textures of the shipped scenes, in scenes/assets, always the same bytes.
+"""Makes the meshes and textures of the shipped scenes, in scenes/assets and scenes/stress/assets, always the same
+bytes.
 
 Needs Debian's python3-numpy and python3-pil. Usage: scripts/make_assets.py [NAME...]; without names, all.
 """
@@ -10,10 +11,11 @@ import sys
 import numpy as np
 from PIL import Image
 
-from assets import dragon, logo, mesh, models, textures
+from assets import dragon, logo, mesh, models, stress, textures
 from assets.textures import srgb
 
-FOLDER = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "assets"
+SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
+FOLDER = SCENES / "assets"
 
 
 def save(name, linear, srgb_coded, colours=None):
@@ -85,6 +87,13 @@ ASSETS = {
     "logo.png": texture(lambda: logo.logo(512, logo.INK, logo.GOLD, srgb(250, 250, 250))),
     # Textures for the extended scenes, decoded from sRGB.
     "maple_srgb.jpg": texture(lambda: textures.wood(800, 640, 5, *MAPLE, 17), srgb_coded=True),
+    # What the stress scenes compare: hard meshes, and easy ones of the same shapes.
+    "../stress/assets/needle_box.ply": ply(stress.needle_box),
+    "../stress/assets/cap.ply": ply(stress.cap),
+    "../stress/assets/ball.ply": ply(stress.ball),
+    "../stress/assets/goblet.ply": ply(stress.goblet),
+    "../stress/assets/duplicates.obj": obj(stress.duplicates),
+    "../stress/assets/prism.obj": obj(stress.prism),
 }
 
 
@@ -92,7 +101,8 @@ def main(names):
     unknown = [name for name in names if name not in ASSETS]
     if unknown:
         sys.exit(f"make_assets.py: no asset {', '.join(unknown)}; there are {', '.join(ASSETS)}")
-    FOLDER.mkdir(parents=True, exist_ok=True)
+    for folder in (FOLDER, SCENES / "stress" / "assets"):
+        folder.mkdir(parents=True, exist_ok=True)
     for name in names or ASSETS:
         ASSETS[name](name)
         print(f"{(FOLDER / name).stat().st_size:9,} {name}")
