@@ -5,7 +5,6 @@
 #include "ray.cl"
 #include "types.h"
 
-
 // The lanes of a comparison's result, one bit each. Written out by lanes the compilers make a dozen shuffles of it
 // where x86 has one instruction.
 INLINE uint lane_bits(int8 m) {
