@@ -8,6 +8,7 @@
 #include "options.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
+#include "render_setup.hpp"
 #include "report.hpp"
 #include "stability_checks.hpp"
 

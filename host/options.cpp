@@ -6,8 +6,6 @@
 #include <filesystem>
 
 #include "error.hpp"
-#include "image.hpp"
-#include "output_file.hpp"
 
 namespace causticl {
 namespace {
@@ -289,56 +287,6 @@ Options parse_options(int argc, const char* const* argv) {
     options.scene_options.overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return options;
-}
-
-void apply_options(const Options& options, Scene& scene) {
-  auto& renderer = scene.renderer;
-  const auto apply = [&](const auto& value, auto& target, Integrator owner, const std::string& option) {
-    if (!value) return;
-    if (renderer.integrator != owner) {
-      const bool for_pt = owner == Integrator::pt;
-      scene.notices.push_back(option + " has no effect: it belongs to " + (for_pt ? "pt" : "sppm") +
-                              " and this render uses " + (for_pt ? "sppm" : "pt"));
-      return;
-    }
-    target = *value;
-  };
-  apply(options.passes, renderer.passes, Integrator::sppm, "--passes");
-  apply(options.photons, renderer.photons, Integrator::sppm, "--photons");
-  apply(options.samples, renderer.samples, Integrator::pt, "--samples");
-}
-
-std::vector<std::string> output_files(const Options& options, const Scene& scene) {
-  if (!options.outputs.empty()) return options.outputs;
-  if (!scene.output.empty()) return {scene.output};
-  return {std::filesystem::path(options.scene).stem().string() + ".png"};
-}
-
-void check_outputs(const Options& options, const std::vector<std::string>& outputs) {
-  for (const auto& file : outputs) check_output(file);
-  if (!options.stats_json.empty()) check_writable(options.stats_json);
-}
-
-std::string threads_notice(const Options& options, const DeviceInfo& info) {
-  if (options.threads == 0) return {};
-  if (info.type != "cpu") return "--threads has no effect: " + info.name + " is not a CPU device";
-  if (options.threads > info.compute_units)
-    return "--threads " + std::to_string(options.threads) + ": the device has " +
-           std::to_string(info.compute_units) + " compute units, and all are used";
-  return {};
-}
-
-RenderOptions render_options(const Options& options, const std::vector<std::string>& outputs) {
-  RenderOptions result;
-  result.outputs = outputs;
-  result.time_limit = options.time_limit;
-  result.seed = options.seed;
-  result.precision = options.precision;
-  result.threads = options.threads;
-  result.triangle_test = options.triangle_test;
-  result.kernel_dir = options.kernel_dir;
-  result.dump_kernels = options.dump_kernels;
-  return result;
 }
 
 }  // namespace causticl

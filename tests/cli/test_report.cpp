@@ -8,6 +8,7 @@
 
 #include "options.hpp"
 #include "progress.hpp"
+#include "render_setup.hpp"
 #include "report.hpp"
 
 using namespace causticl;
