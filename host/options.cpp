@@ -281,6 +281,11 @@ Options parse_options(int argc, const char* const* argv) {
     options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
   if (texts.precision == "double") options.precision = Precision::float64;
   if (texts.triangle_test == "precomputed") options.triangle_test = TriangleTest::precomputed;
+  // Rays that leave a surface in double precision would meet it again where its transform was rounded.
+  if (options.triangle_test == TriangleTest::precomputed && options.precision == Precision::float64)
+    throw UserError(
+        "--triangle-test precomputed: its transforms are stored in single precision; expected --precision "
+        "float");
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
   for (const auto& text : texts.overrides) {
     const auto equals = text.find('=');

@@ -128,6 +128,8 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
       {{"render", "a.json", "--threads", "0"}, "--threads: expected a whole number from 1"},
       {{"render", "a.json", "--integrator", "vcm"}, "--integrator: expected sppm or pt, found 'vcm'"},
       {{"render", "a.json", "--precision", "half"}, "--precision: expected float or double, found 'half'"},
+      {{"render", "a.json", "--triangle-test", "precomputed", "--precision", "double"},
+       "--triangle-test precomputed: its transforms are stored in single precision"},
       {{"render", "a.json", "--triangle-test", "fast"},
        "--triangle-test: expected watertight or precomputed, found 'fast'"},
       {{"render", "a.json", "--kernel-dir", "/nonexistent"}, "--kernel-dir: expected an existing folder"},
