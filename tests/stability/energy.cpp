@@ -146,7 +146,10 @@ Scene dark_tube(bool camera_inside, Integrator integrator) {
                      make_material(Kind::diffuse, 0, 100)};
   scene.meshes = {torus(9, 7, 3, 1), torus(11, 6, 3, 0.4)};
   scene.objects = {make_mesh_object(0, {}, 0), make_mesh_object(1, {}, 1)};
-  for (const double x : {3.0, -2.9}) scene.objects.push_back(make_sphere({x, 0, 0}, 0.1, 2));
+  for (int i = 0; i < 11; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 11;
+    scene.objects.push_back(make_sphere({3 * std::cos(angle), 0, -3 * std::sin(angle)}, 0.25, 2));
+  }
   if (camera_inside) {
     // The camera looks along the mirrors: at grazing incidence shading normals fail first.
     for (const double y : {0.0, 5.0}) scene.objects.push_back(make_sphere({0, y, 0}, 0.8, 2));
