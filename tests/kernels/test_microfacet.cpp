@@ -1,6 +1,6 @@
 #include <array>
 
-#include "chi_square.hpp"
+#include "chi_square_check.hpp"
 #include "stability/rough_lobe_oracle.hpp"
 #include "vector_inputs.hpp"
 
