@@ -1,15 +1,9 @@
 // Shapes as the host uploads them, for kernels that are checked on their own.
 #pragma once
 
-#include "types.h"
-#include "vec.hpp"
+#include "vectors.hpp"
 
 namespace causticl {
-
-inline float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-inline Vec3 to_vec3(float4 v) { return {v.x, v.y, v.z}; }
 
 inline Shape make_shape(uint type, const Transform& transform, uint curve = 0) {
   Shape shape{};
