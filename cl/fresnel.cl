@@ -30,7 +30,11 @@ INLINE real fresnel_transmittance(real cosine, real eta) {
 INLINE real fresnel_conductor(real cosine, real eta, real k) {
   cosine = clamp(cosine, (real)0, (real)1);
   real sine2 = (1 - cosine) * (1 + cosine);
-  real difference = (eta - k) * (eta + k) - sine2, product = eta * k;
+  // eta^2 - k^2 - sin^2 by whichever of sine and cosine is small: between nearly equal indices at grazing incidence,
+  // or near total reflection at a small eta, the other would cancel all digits.
+  real difference =
+      cosine < (real)0.5 ? (eta - 1) * (eta + 1) + cosine * cosine - k * k : (eta - k) * (eta + k) - sine2;
+  real product = eta * k;
   // The larger of a^2 and b^2 by a sum, the smaller by their product.
   real larger = (real)0.5 * (sqrt(difference * difference + 4 * product * product) + fabs(difference));
   real smaller = larger > 0 ? product * product / larger : 0;

@@ -298,7 +298,8 @@ inline constexpr BadScene bad_scenes[] = {
      "scene.json:5: /materials/white/color: unknown key \"color\"; use one of \"type\", \"eta\", \"k\", "
      "\"emission\", \"two_sided\" or \"roughness\""},
     {"conductor without k", "\"diffuse\", \"color\"", "\"conductor\", \"eta\"",
-     "scene.json:5: /materials/white/k: expected a vector, got nothing; the key is required"},
+     "scene.json:5: /materials/white/k: expected a vector, got nothing; the key is required; write [x, y, z] "
+     "or {\"x\": x, \"y\": y, \"z\": z}"},
     {"negative k", "\"diffuse\", \"color\"", "\"conductor\", \"k\": [1, -1, 1], \"eta\"",
      "scene.json:5: /materials/white/k/1: expected an extinction coefficient from 0 to 100, got -1"},
     {"roughness above 1", "\"diffuse\", \"color\"", "\"plastic\", \"roughness\": 1.5, \"color\"",
