@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Usage: scripts/oclgrind.sh [SCENE...]
 # Runs the kernels of both integrators under Oclgrind, which reports accesses out of bounds, data races and
-# barrier divergence, on tiny pictures of the SCENEs (all that are shipped, where none is named). Takes minutes.
+# barrier divergence, on tiny pictures of the SCENEs. Where none is named it takes all that are shipped, and runs
+# the checks of `causticl selftest` on a few inputs each. Takes long.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
@@ -28,4 +29,14 @@ for scene in "${scenes[@]}"; do
     fi
   done
 done
-[ $failed -eq 0 ] || fail "Oclgrind has complaints about $failed renders (above)"
+if [ $# -eq 0 ]; then
+  if messages=$(oclgrind --data-races --build-options "-cl-opt-disable -DCAUSTICL_NO_INLINE" \
+    "$root/build/causticl" selftest --inputs 64 2>&1); then
+    echo "clean: selftest"
+  else
+    echo "FAILED: selftest"
+    echo "$messages"
+    failed=$((failed + 1))
+  fi
+fi
+[ $failed -eq 0 ] || fail "Oclgrind has complaints about $failed runs (above)"
