@@ -167,10 +167,11 @@ void add_selftest_options(CLI::App& app, Options& options) {
   const auto effort = [&](SelftestOptions::Effort value) {
     return [&selftest, value] { selftest.effort = value; };
   };
-  auto* quick = app.add_flag_callback("--quick", effort(SelftestOptions::Effort::quick),
-                                      "under 30 s; default: 10^6 inputs a check");
+  auto* quick = app.add_flag_callback(
+      "--quick", effort(SelftestOptions::Effort::quick),
+      "10^5 inputs a check at most: under half a minute once the\nkernels are compiled; default: 10^6");
   app.add_flag_callback("--full", effort(SelftestOptions::Effort::full),
-                        "10^8 inputs a check: an hour or more")
+                        "10^8 inputs a check: hours on a CPU")
       ->excludes(quick);
   app.add_option("--inputs", selftest.inputs, "inputs a check")
       ->check(whole_number(1, 1000000000000))
