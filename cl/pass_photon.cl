@@ -60,7 +60,8 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
              b = flux_quantise(landed.z, dither.z, &saturated);
         if (saturated) atomic_inc(&counters->saturated);
         if (isfinite(landed.x + landed.y + landed.z + surface.position.x + surface.position.y + surface.position.z)) {
-          uint slot = counters->photons < PHOTON_COUNT_LIMIT ? atomic_inc(&counters->photons) : PHOTON_COUNT_LIMIT;
+          uint slot = atomic_inc(&counters->photons);
+          if (slot >= PHOTON_COUNT_LIMIT) atomic_dec(&counters->photons);
           if (slot < params.photon_capacity) {
             bool front = dot(surface.geometric_normal, ray.direction) < 0;
             global Photon *photon = photons + slot;
