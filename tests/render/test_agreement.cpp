@@ -31,7 +31,7 @@ const std::vector<Budget> budgets{
     {"cornell_box.json", 96, 250000, 1024},
     {"furnace.json", 64, 250000, 512},
     {"glass_caustic.json", 12000, 5000, 40000, 32, 24, 0.4},
-    {"effects/rough_metals.json", 400, 60000, 4096, 64, 40},
+    {"effects/rough_metals.json", 800, 60000, 4096, 64, 40, 0.08},
 };
 
 }  // namespace
