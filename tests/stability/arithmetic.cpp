@@ -69,6 +69,14 @@ float normal_float(InputRandom& random, double low = -6, double high = 6) {
   return static_cast<float>(std::copysign(random.scale(low, high), random.uniform(-1, 1)));
 }
 
+Pair normal_pair(InputRandom& random) { return {normal_float(random), normal_float(random)}; }
+
+/// a, b and c with a b + c almost zero: what is left is the rounding of the product.
+Quad cancelling_terms(InputRandom& random) {
+  const auto [a, b] = normal_pair(random);
+  return {a, b, next_float(-a * b, static_cast<int>(random.below(9)) - 4), 0};
+}
+
 /// The distance in units of the last place of `exact`, whatever both are.
 double ulps(double value, double exact) {
   if (std::isnan(value) || std::isnan(exact)) return std::isnan(value) && std::isnan(exact) ? 0 : NAN;
@@ -80,10 +88,7 @@ double ulps(double value, double exact) {
 CheckResult division(CheckContext& context) {
   CheckKernel kernel(context, context.program(source), "divide");
   return run_random_check(
-      context, 2.5, "ulp",
-      [](InputRandom& random, std::uint64_t) {
-        return Pair{normal_float(random), normal_float(random)};
-      },
+      context, 2.5, "ulp", [](InputRandom& random, std::uint64_t) { return normal_pair(random); },
       [&](const auto& inputs) { return kernel.run<float>(inputs); },
       [](const Pair& in, float out) { return ulps(out, static_cast<double>(in.a) / in.b); });
 }
@@ -102,12 +107,7 @@ CheckResult square_root(CheckContext& context) {
 CheckResult fused_multiply_add(CheckContext& context) {
   CheckKernel kernel(context, context.program(source), "fused");
   return run_random_check(
-      context, 0.5, "ulp",
-      [](InputRandom& random, std::uint64_t) {
-        Quad q{normal_float(random), normal_float(random), 0, 0};
-        q.c = next_float(-q.a * q.b, static_cast<int>(random.below(9)) - 4);
-        return q;
-      },
+      context, 0.5, "ulp", [](InputRandom& random, std::uint64_t) { return cancelling_terms(random); },
       [&](const auto& inputs) { return kernel.run<float>(inputs); },
       [](const Quad& in, float out) { return ulps(out, static_cast<double>(in.a) * in.b + in.c); });
 }
@@ -115,12 +115,7 @@ CheckResult fused_multiply_add(CheckContext& context) {
 CheckResult no_contraction(CheckContext& context) {
   CheckKernel kernel(context, context.program(source), "unfused");
   return run_random_check(
-      context, 0, "ulp",
-      [](InputRandom& random, std::uint64_t) {
-        Quad q{normal_float(random), normal_float(random), 0, 0};
-        q.c = next_float(-q.a * q.b, static_cast<int>(random.below(9)) - 4);
-        return q;
-      },
+      context, 0, "ulp", [](InputRandom& random, std::uint64_t) { return cancelling_terms(random); },
       [&](const auto& inputs) { return kernel.run<float>(inputs); },
       [](const Quad& in, float out) {
         volatile float product = in.a * in.b;
@@ -131,10 +126,7 @@ CheckResult no_contraction(CheckContext& context) {
 CheckResult no_reassociation(CheckContext& context) {
   CheckKernel kernel(context, context.program(source), "sum_error");
   return run_random_check(
-      context, 0, "ulp",
-      [](InputRandom& random, std::uint64_t) {
-        return Pair{normal_float(random), normal_float(random)};
-      },
+      context, 0, "ulp", [](InputRandom& random, std::uint64_t) { return normal_pair(random); },
       [&](const auto& inputs) { return kernel.run<float>(inputs); },
       [](const Pair& in, float out) {
         volatile float sum = in.a + in.b;
