@@ -22,7 +22,7 @@ INLINE Ray camera_ray(const Camera *camera, uint width, uint height, real2 film,
   Ray ray;
   ray.origin = convert_real3(camera->origin.xyz) + d * camera->origin.w;
   ray.direction = normalize(d);
-  if (HAS(EFFECT_LENS)) {
+  if (HAS(EFFECT_LENS) && camera->right.w > 0) {
     real2 r = camera->right.w * disc_uniform(lens);
     real3 offset = r.x * convert_real3(camera->lens_right.xyz) + r.y * convert_real3(camera->lens_up.xyz);
     real3 focus = (camera->up.w != 0 ? d : normalize(d)) * camera->axis.w;

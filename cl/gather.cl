@@ -61,7 +61,7 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
 
 // Sums over all photons within sqrt(radius2) of `point`. Each bucket is visited once: a window of at most n
 // cubes along an axis of n buckets has no two cubes in one bucket.
-static Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
+OUTLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
                        real radius2) {
   Gathered sum = {0, 0, 0, 0};
   real radius = sqrt(radius2);

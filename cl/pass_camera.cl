@@ -7,39 +7,37 @@
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it.
-kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
-                         Params params) {
-  uint index = get_global_id(0);
-  if (index >= params.pixel_count * params.visible_points) return;
-  SCENE_INIT(params);
-  uint pixel = params.first_pixel + index / params.visible_points, sample = index % params.visible_points;
-  RandomStream stream = {params.seed, params.pass, pixel * params.visible_points + sample};
+OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
+                         volatile global Counters *counters) {
+  uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
+  RandomStream stream = {params->seed, params->pass, pixel * params->visible_points + sample};
 
   real4 film = random4(stream, DIM_FILM);
-  real2 position = (real2)(pixel % params.width, pixel / params.width) +
-                   camera_stratum(sample, params.visible_points, film.xy);
-  Ray ray = camera_ray(&params.camera, params.width, params.height, position, film.zw);
+  real2 position = (real2)(pixel % params->width, pixel / params->width) +
+                   camera_stratum(sample, params->visible_points, film.xy);
+  Ray ray = camera_ray(&params->camera, params->width, params->height, position, film.zw);
 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
+  bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
-  for (uint depth = 0; depth <= params.max_depth; ++depth) {
+  for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
-    bool met = geometry_closest(&scene.geometry, ray, &hit);
+    bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
     if (!met) break;
     Surface surface;
-    geometry_surface(&scene.geometry, ray, hit, &surface);
-    global const Material *material = materials + surface.material;
+    geometry_surface(&scene->geometry, ray, hit, &surface);
+    global const Material *material = scene->materials + surface.material;
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
-      emission *= emission_weight(&scene, ray, hit, &surface, material, bsdf_pdf);
+      emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
     radiance += throughput * emission;
-    if (depth == params.max_depth) break;
+    if (depth == params->max_depth) break;
 
-    Bsdf bsdf = bsdf_at(material, textures, texels, surface.uv);
+    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     real4 random = random_at(stream, depth, DIM_BSDF);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
@@ -48,8 +46,8 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
-      if (HAS(EFFECT_SHADOW_RAYS) && params.emitter_count > 0)
-        radiance += direct_light(&scene, &bsdf, &surface, ray.direction, n, weight,
+      if (shadow_rays)
+        radiance += direct_light(scene, &bsdf, &surface, ray.direction, n, weight,
                                  random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
       point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
@@ -58,10 +56,10 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
       break;
     }
 
-    bool weigh_lights = HAS(EFFECT_SHADOW_RAYS) && bsdf_is_rough(&bsdf) && params.emitter_count > 0;
+    bool weigh_lights = shadow_rays && bsdf_is_rough(&bsdf);
     if (weigh_lights) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light_rough(&scene, &bsdf, &surface, ray.direction, n, throughput,
+      radiance += direct_light_rough(scene, &bsdf, &surface, ray.direction, n, throughput,
                                      random_at(stream, depth, DIM_LIGHT), &rays, counters);
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
@@ -74,4 +72,12 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   vstore3(radiance, 0, point.radiance);
   visible_points[index] = point;
   atomic_add(&counters->rays, rays);
+}
+
+kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
+                         Params params) {
+  uint index = get_global_id(0);
+  if (index >= params.pixel_count * params.visible_points) return;
+  SCENE_INIT(params);
+  camera_path(&scene, &params, index, visible_points, counters);
 }

@@ -192,8 +192,10 @@ typedef struct {
   uint photon_capacity;      // stored at most
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
+  uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
+  uint unused[3];
 } Params;
-CHECK_SIZE(Params, 160);
+CHECK_SIZE(Params, 176);
 
 // What SPPM keeps of a pixel between passes besides the film: its squared radius as an unevaluated sum
 // hi + lo, and the number of all photons found so far, as two halves. N of the paper is alpha times that.

@@ -30,6 +30,7 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.photon_count = static_cast<uint>(spec_.photons);
   params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene.emitted_power / spec_.photons);
+  params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
