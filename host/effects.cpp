@@ -1,36 +1,69 @@
 #include "effects.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "effects.h"
+#include "error.hpp"
 
 namespace causticl {
 namespace {
 
 using Shape = Object::Shape;
+using Kind = MaterialSpec::Kind;
 
-/// Names the first object that `wanted` accepts, or nothing.
-template <typename Predicate>
-std::string first_object(const Scene& scene, const char* what, Predicate wanted) {
+/// Names what calls for an effect: the first object that `wanted` accepts, by `describe`, and how many more.
+template <typename Predicate, typename Describe>
+std::string first_object(const Scene& scene, const Predicate& wanted, const Describe& describe) {
   const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), wanted);
-  return found == scene.objects.end() ? "" : std::string(what) + " " + found->pointer;
+  if (found == scene.objects.end()) return "";
+  const auto more = std::count_if(found + 1, scene.objects.end(), wanted);
+  return describe(*found) + (more ? " and " + std::to_string(more) + " more" : "");
 }
 
-std::string by_shape(const Scene& scene, std::initializer_list<Shape> shapes, const char* what) {
-  return first_object(scene, what, [&](const Object& object) {
+const char* shape_name(Shape shape) {
+  static constexpr const char* names[] = {"sphere", "plane", "rectangle", "disk", "box", "mesh", "curve"};
+  return names[static_cast<int>(shape)];
+}
+
+std::string by_shape(const Scene& scene, std::initializer_list<Shape> shapes) {
+  const auto wanted = [&](const Object& object) {
     return std::find(shapes.begin(), shapes.end(), object.shape) != shapes.end();
+  };
+  return first_object(scene, wanted, [](const Object& object) {
+    return object.is_disc_light ? "light_pos of " + object.pointer
+                                : std::string(shape_name(object.shape)) + " " + object.pointer;
   });
 }
 
-std::string by_material(const Scene& scene, MaterialSpec::Kind kind, const char* what) {
-  return first_object(scene, what,
-                      [&](const Object& object) { return scene.materials[object.material].kind == kind; });
+/// `what` is the key of the material that calls for the effect.
+template <typename Predicate>
+std::string by_material(const Scene& scene, const char* what, const Predicate& wanted) {
+  const auto material = [&](const Object& object) -> const MaterialSpec& {
+    return scene.materials[static_cast<std::size_t>(object.material)];
+  };
+  return first_object(
+      scene, [&](const Object& object) { return wanted(material(object)); },
+      [&](const Object& object) {
+        const std::string& pointer = material(object).pointer;
+        const bool inline_material = pointer.rfind(object.pointer, 0) == 0;
+        return std::string(what) + " of " + pointer + (inline_material ? "" : " on " + object.pointer);
+      });
 }
 
+std::string by_kind(const Scene& scene, Kind kind, const char* what) {
+  return by_material(scene, what, [&](const MaterialSpec& material) { return material.kind == kind; });
+}
+
+/// Shadow rays want something to go to: infinite planes, which are never sampled, do not count.
 std::string shadow_rays_reason(const Scene& scene) {
   if (scene.renderer.direct_light != DirectLight::shadow_rays) return "";
-  return first_object(scene, "emission of", [&](const Object& object) {
-    return object.shape != Shape::plane && max_component(scene.materials[object.material].emission) > 0;
+  const auto wanted = [&](const Object& object) {
+    const auto& material = scene.materials[static_cast<std::size_t>(object.material)];
+    return object.shape != Shape::plane && max_component(material.emission) > 0;
+  };
+  return first_object(scene, wanted, [](const Object& object) {
+    return "/renderer/direct_light with the emitter " + object.pointer;
   });
 }
 
@@ -38,25 +71,23 @@ std::string shadow_rays_reason(const Scene& scene) {
 
 Effects find_effects(const Scene& scene) {
   return {
-      {EFFECT_TRIANGLES, "triangles",
-       by_shape(scene, {Shape::mesh, Shape::rectangle, Shape::box}, "triangles of")},
-      {EFFECT_SPHERES, "spheres", by_shape(scene, {Shape::sphere}, "sphere")},
-      {EFFECT_PLANES, "planes", by_shape(scene, {Shape::plane}, "plane")},
-      {EFFECT_DISKS, "disks", by_shape(scene, {Shape::disk}, "disk")},
-      {EFFECT_BEZIER, "revolved curves", by_shape(scene, {Shape::bezier}, "revolved curve")},
-      {EFFECT_TEXTURES, "textures",
-       first_object(
-           scene, "texture of",
-           [&](const Object& object) { return scene.materials[object.material].color_texture >= 0; })},
-      {EFFECT_MIRROR, "mirrors", by_material(scene, MaterialSpec::Kind::mirror, "mirror")},
-      {EFFECT_GLASS, "glass", by_material(scene, MaterialSpec::Kind::glass, "glass")},
-      {EFFECT_LENS, "depth of field", scene.camera.aperture > 0 ? "camera aperture" : ""},
-      {EFFECT_SHADOW_RAYS, "direct light by shadow rays", shadow_rays_reason(scene)},
-      {EFFECT_ROUGH, "rough lobes",
-       first_object(scene, "roughness of",
-                    [&](const Object& object) { return scene.materials[object.material].roughness > 0; })},
-      {EFFECT_CONDUCTOR, "conductors", by_material(scene, MaterialSpec::Kind::conductor, "conductor")},
-      {EFFECT_PLASTIC, "plastic", by_material(scene, MaterialSpec::Kind::plastic, "plastic")},
+      {EFFECT_TRIANGLES, "triangles", "triangles",
+       by_shape(scene, {Shape::mesh, Shape::rectangle, Shape::box})},
+      {EFFECT_SPHERES, "spheres", "spheres", by_shape(scene, {Shape::sphere})},
+      {EFFECT_PLANES, "planes", "infinite planes", by_shape(scene, {Shape::plane})},
+      {EFFECT_DISKS, "disks", "disks", by_shape(scene, {Shape::disk})},
+      {EFFECT_BEZIER, "curves", "revolved curves", by_shape(scene, {Shape::bezier})},
+      {EFFECT_TEXTURES, "textures", "textures",
+       by_material(scene, "texture",
+                   [](const MaterialSpec& material) { return material.color_texture >= 0; })},
+      {EFFECT_MIRROR, "mirror", "mirrors", by_kind(scene, Kind::mirror, "mirror")},
+      {EFFECT_GLASS, "glass", "glass", by_kind(scene, Kind::glass, "glass")},
+      {EFFECT_LENS, "lens", "depth of field", scene.camera.aperture > 0 ? "/camera/aperture" : ""},
+      {EFFECT_SHADOW_RAYS, "shadow_rays", "direct light by shadow rays", shadow_rays_reason(scene)},
+      {EFFECT_ROUGH, "rough", "rough lobes",
+       by_material(scene, "roughness", [](const MaterialSpec& material) { return material.roughness > 0; })},
+      {EFFECT_CONDUCTOR, "conductor", "conductors", by_kind(scene, Kind::conductor, "conductor")},
+      {EFFECT_PLASTIC, "plastic", "plastic", by_kind(scene, Kind::plastic, "plastic")},
   };
 }
 
@@ -64,6 +95,33 @@ unsigned effect_bits(const Effects& effects) {
   unsigned bits = 0;
   for (const auto& effect : effects)
     if (!effect.reason.empty()) bits |= effect.bit;
+  return bits;
+}
+
+std::string effect_keys(const Effects& effects, unsigned bits) {
+  std::string text;
+  for (const auto& effect : effects)
+    if (effect.bit & bits) text += (text.empty() ? "" : ", ") + effect.key;
+  return text;
+}
+
+unsigned chosen_effects(const Effects& effects, const std::string& choice) {
+  if (choice == "auto") return effect_bits(effects);
+  if (choice == "all") return EFFECT_ALL;
+  unsigned bits = 0;
+  std::istringstream list(choice);
+  for (std::string key; std::getline(list, key, ',');) {
+    const auto found =
+        std::find_if(effects.begin(), effects.end(), [&](const Effect& effect) { return effect.key == key; });
+    if (found == effects.end())
+      throw UserError("--effects: no effect is called '" + key + "'; expected auto, all, or a list of " +
+                      effect_keys(effects, EFFECT_ALL));
+    bits |= found->bit;
+  }
+  for (const auto& effect : effects)
+    if (!effect.reason.empty() && !(effect.bit & bits))
+      throw UserError("--effects " + choice + ": the scene calls for " + effect.key + " (" + effect.reason +
+                      "); expected a list with " + effect_keys(effects, effect_bits(effects)));
   return bits;
 }
 

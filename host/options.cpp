@@ -123,7 +123,13 @@ void add_output_options(CLI::App& app, Options& options) {
 }
 
 /// How it computes.
-void add_method_options(CLI::App& app, Texts& texts) {
+void add_method_options(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("--effects", options.effects,
+                 "what the kernels are compiled for: auto, what the scene\n"
+                 "calls for (the default); all; or a list of effects, as in\n"
+                 "spheres,glass, which must hold what the scene calls for.\n"
+                 "The picture is the same")
+      ->type_name("auto|all|LIST");
   app.add_option("--precision", texts.precision,
                  "of the kernels' arithmetic; default: float. double needs a\n"
                  "device with fp64 and is slower: it is for measuring float")
@@ -241,7 +247,7 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
   add_scene_options(render, options, texts);
   add_output_options(render, options);
-  add_method_options(render, texts);
+  add_method_options(render, options, texts);
   add_device_options(render, options);
   add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +

@@ -30,6 +30,7 @@ struct Options {
   std::string device;    // as find_device takes it
   unsigned threads = 0;  // 0: all
   TriangleTest triangle_test = TriangleTest::watertight;
+  std::string effects = "auto";  // render: what the kernels are compiled for
   std::string kernel_dir, dump_kernels;
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none

@@ -75,9 +75,8 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.device = device.info().name;
   statistics.precision = options.precision;
 
-  const Effects effects = find_effects(scene);
-  const KernelOptions kernels{effect_bits(effects), options.precision, options.triangle_test,
-                              options.kernel_dir, options.dump_kernels};
+  const KernelOptions kernels{chosen_effects(find_effects(scene), options.effects), options.precision,
+                              options.triangle_test, options.kernel_dir, options.dump_kernels};
   const DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
   Film film(device, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;

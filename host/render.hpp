@@ -24,9 +24,10 @@ struct RenderOptions {
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
-  unsigned threads = 0;      // for the tree; 0: all of the machine
-  std::string kernel_dir;    // --kernel-dir: read cl/ live; empty: the embedded sources
-  std::string dump_kernels;  // --dump-kernels: folder that receives what was built; empty: none
+  unsigned threads = 0;          // for the tree; 0: all of the machine
+  std::string effects = "auto";  // --effects, as chosen_effects takes it
+  std::string kernel_dir;        // --kernel-dir: read cl/ live; empty: the embedded sources
+  std::string dump_kernels;      // --dump-kernels: folder that receives what was built; empty: none
 };
 
 /// Where a render stands, after each pass.

@@ -51,6 +51,7 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   result.seed = options.seed;
   result.precision = options.precision;
   result.threads = options.threads;
+  result.effects = options.effects;
   result.triangle_test = options.triangle_test;
   result.kernel_dir = options.kernel_dir;
   result.dump_kernels = options.dump_kernels;

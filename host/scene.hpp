@@ -25,6 +25,7 @@ struct TextureSpec {
 };
 
 struct MaterialSpec {
+  std::string pointer;  // JSON pointer, "/materials/gold", "/objects/3/texture"
   enum class Kind { diffuse, mirror, glass, conductor, plastic };
   Kind kind = Kind::diffuse;
   Color color{1, 1, 1};

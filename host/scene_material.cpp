@@ -53,6 +53,7 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
   if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
   using Kind = MaterialSpec::Kind;
   MaterialSpec material;
+  material.pointer = json.pointer();
   material.kind =
       static_cast<Kind>(json.at("type").choice({"diffuse", "mirror", "glass", "conductor", "plastic"}));
   if (material.kind == Kind::conductor) {
@@ -96,6 +97,7 @@ Color read_base_color(const JsonReader& json, SceneLoader& loader) {
 int read_base_texture(const JsonReader& json, Object::Shape shape, SceneLoader& loader) {
   if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
   MaterialSpec material;
+  material.pointer = json.pointer();
   material.ior = loader.glass_ior;
   material.two_sided = true;
   if (json.at("type").choice({"raw", "image"}) == 0) {

@@ -55,6 +55,7 @@ void read_disc_light(const JsonReader& json, SceneLoader& loader) {
   light.transform.translation = read_vector(json.at("light_pos"));
 
   MaterialSpec black;
+  black.pointer = json.pointer();
   black.color = {0, 0, 0};
   black.emission = read_vector(json, "light_radiance", {10, 10, 10}, non_negative_number);
   light.material = static_cast<int>(loader.scene.materials.size());

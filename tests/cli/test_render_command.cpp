@@ -125,3 +125,25 @@ TEST_CASE("--kernel-dir reads the kernels from a folder and --dump-kernels write
   check_one_error(run_causticl(small_render({"--quiet", "--kernel-dir", "empty"}), folder.path("")), 2,
                   "empty");
 }
+
+TEST_CASE("--effects compiles more and changes no byte, and refuses less than the scene calls for") {
+  const TemporaryFolder folder;
+  const auto render = [&](const std::string& effects, const std::string& name) {
+    return run_causticl(
+        small_render({"--passes", "1", "--effects", effects, "-o", name, "--dump-kernels", name + "_cl"}),
+        folder.path(""));
+  };
+  const auto defined = [&](const std::string& name) {
+    const std::string source = bytes_of(folder.path(name + "_cl/pass_photon.cl"));
+    return source.substr(0, source.find('\n'));
+  };
+  check_success(render("auto", "auto.pfm"));
+  check_success(render("triangles,shadow_rays,spheres", "more.pfm"));
+  CHECK(bytes_of(folder.path("more.pfm")) == bytes_of(folder.path("auto.pfm")));
+  CHECK(defined("auto.pfm") == "#define EFFECTS 0x201u");
+  CHECK(defined("more.pfm") == "#define EFFECTS 0x203u");
+  check_one_error(render("triangles", "x.pfm"), 2,
+                  "the scene calls for shadow_rays (/renderer/direct_light with the emitter /objects/");
+  check_one_error(render("everything", "x.pfm"), 2,
+                  "no effect is called 'everything'; expected auto, all, or a list of triangles, spheres,");
+}
