@@ -23,7 +23,8 @@ std::vector<Check> fresnel_checks();              // hard case 12
 std::vector<Check> rough_lobe_checks();           // hard case 13
 std::vector<Check> rough_lobe_sampling_checks();  // hard case 13: samples against their density
 std::vector<Check> energy_checks();               // hard cases 14 and 15
-std::vector<Check> sum_checks();                  // hard cases 16, 17 and 18
+std::vector<Check> sum_checks();                  // hard case 16
+std::vector<Check> progressive_radius_checks();   // hard cases 17 and 18
 std::vector<Check> photon_grid_checks();          // hard case 19
 std::vector<Check> execution_order_checks();      // hard case 20
 std::vector<Check> random_number_checks();        // hard case 21
