@@ -13,17 +13,21 @@ INLINE void sum_add(float *hi, float *lo, float x) {
   *lo = tail - (*hi - s);
 }
 
-// Adds one radiance estimate to a pixel. One that is not finite, or with which the sum would not be, is left out of
-// the mean, and counted.
-INLINE void film_add(global FilmPixel *pixel, real3 radiance, volatile global Counters *counters) {
+INLINE float luminance(float red, float green, float blue) { return 0.2126f * red + 0.7152f * green + 0.0722f * blue; }
+
+// Adds the radiance estimate of pass `pass` to a pixel. One that is not finite, or with which the sum would not be, is
+// left out of the mean, and counted. `blur` is what the estimate's luminance owes to the size of its kernel, as far as
+// gather() can tell: see pass_film.cl for what becomes of it and of the spread, which grows as Welford (1962) has it.
+INLINE void film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
+                     volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
     atomic_inc(&counters->non_finite);
     ++pixel->left_out;
     return;
   }
-  float value[3] = {(float)radiance.x, (float)radiance.y, (float)radiance.z}, hi[3], lo[3];
+  float value[3] = {(float)radiance.x, (float)radiance.y, (float)radiance.z}, before[3], hi[3], lo[3];
   for (int c = 0; c < 3; ++c) {
-    hi[c] = pixel->sum[c];
+    before[c] = hi[c] = pixel->sum[c];
     lo[c] = pixel->low[c];
     sum_add(hi + c, lo + c, value[c]);
   }
@@ -36,4 +40,11 @@ INLINE void film_add(global FilmPixel *pixel, real3 radiance, volatile global Co
     pixel->sum[c] = hi[c];
     pixel->low[c] = lo[c];
   }
+  float estimates = (float)(pass - pixel->left_out);
+  if (estimates > 0) {
+    float mean = luminance(before[0], before[1], before[2]) / estimates;
+    float deviation = luminance(value[0], value[1], value[2]) - mean;
+    pixel->spread = fmin(pixel->spread + deviation * deviation * (estimates / (estimates + 1)), FLT_MAX);
+  }
+  if (isfinite(blur)) pixel->blur[pass & 1u] += (float)blur;
 }

@@ -6,6 +6,7 @@
 
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
+  ulong near_red, near_green, near_blue;  // of those within sqrt(radius2 / 2)
   uint count;
 } Gathered;
 
@@ -20,10 +21,11 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
   global const uint *words = photon_words(sorted, stride);
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   float3 n = normal * (1.0f / 127.0f);
+  real half_radius2 = radius2 / 2;
   while (begin < end) {
     // 2^16 steps of 16-bit flux are what the 32-bit lanes hold.
     uint stop = end - begin > (1u << 19) ? begin + (1u << 19) : end;
-    uint8 red = 0, green = 0, blue = 0;
+    uint8 red = 0, green = 0, blue = 0, near_red = 0, near_green = 0, near_blue = 0;
     int8 count = 0;
     for (uint i = begin; i < stop; i += 8) {
       real8 dx = vload8(0, xs + i) - point.x;
@@ -32,18 +34,26 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
       int8 packed = as_int8(vload8(0, words + i));
       float8 facing = n.x * convert_float8(packed << 24 >> 24) + n.y * convert_float8(packed << 16 >> 24) +
                       n.z * convert_float8(packed << 8 >> 24);
-      int8 inside = mask_lanes(dx * dx + dy * dy + dz * dz <= radius2) & (facing > GATHER_NORMAL_COSINE) &
-                    (lane < (uint8)(stop - i));
-      uint8 keep = as_uint8(inside);
-      uint8 red_green = vload8(0, words + stride + i) & keep;
-      red += red_green & 0xffffu;
-      green += red_green >> 16;
-      blue += vload8(0, words + 2 * stride + i) & keep;
+      real8 distance2 = dx * dx + dy * dy + dz * dz;
+      int8 inside =
+          mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE) & (lane < (uint8)(stop - i));
+      uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= half_radius2));
+      uint8 red_green = vload8(0, words + stride + i) & keep, b = vload8(0, words + 2 * stride + i) & keep;
+      uint8 r = red_green & 0xffffu, g = red_green >> 16;
+      red += r;
+      green += g;
+      blue += b;
+      near_red += r & near;
+      near_green += g & near;
+      near_blue += b & near;
       count -= inside;
     }
     sum->red += sum_of_lanes(red);
     sum->green += sum_of_lanes(green);
     sum->blue += sum_of_lanes(blue);
+    sum->near_red += sum_of_lanes(near_red);
+    sum->near_green += sum_of_lanes(near_green);
+    sum->near_blue += sum_of_lanes(near_blue);
     sum->count += (uint)sum_of_lanes(as_uint8(count));
     begin = stop;
   }
@@ -59,11 +69,12 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
   return span >= n ? n : span + 1;
 }
 
-// Sums over all photons within sqrt(radius2) of `point`. Each bucket is visited once: a window of at most n
+// Sums over all photons within sqrt(radius2) of `point`, and over those of half the area around it: what the two say
+// differently of the density is a measure of how much the larger one blurs. Each bucket is visited once: a window of at most n
 // cubes along an axis of n buckets has no two cubes in one bucket.
 OUTLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
                        real radius2) {
-  Gathered sum = {0, 0, 0, 0};
+  Gathered sum = {0, 0, 0, 0, 0, 0, 0};
   real radius = sqrt(radius2);
   uint stride = photon_stride(grid.photon_count);
   uint i0, j0, k0;

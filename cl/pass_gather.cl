@@ -18,7 +18,8 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
 }
 
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
-// the film; equations (8) and (9) update its radius. With params.radius2 > 0 that radius holds for all pixels.
+// the film, with how much less half the area around each point says; equations (8) and (9) update its radius. With
+// params.radius2 > 0 that radius holds for all pixels.
 kernel void gather_photons(global const VisiblePoint *visible_points, global SppmPixel *pixels,
                            global FilmPixel *film, global const uint *starts, global const uint *sorted,
                            volatile global Counters *counters, Grid grid, Params params) {
@@ -27,7 +28,7 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   uint index = params.first_pixel + i;
   SppmPixel pixel = pixels[index];
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
-  real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0);
+  real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   uint found = 0;
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
@@ -36,11 +37,13 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
     Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);
+    reflected_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
     found = add_sat(found, sum.count);
   }
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
+  real3 blur = (reflected - 2 * reflected_near) * (density / params.visible_points);
   if (found > 0) radiance += reflected * density;
-  film_add(film + index, radiance / params.visible_points, counters);
+  film_add(film + index, radiance / params.visible_points, luminance(blur.x, blur.y, blur.z), params.pass, counters);
   if (params.radius2 > 0) return;
   pixels[index] = sppm_update(pixel, found, params.alpha);
 }

@@ -65,6 +65,6 @@ kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile globa
   Ray ray = camera_ray(&params.camera, params.width, params.height, position, numbers.zw);
   uint rays = 0;
   real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays, counters);
-  film_add(film + pixel, radiance, counters);
+  film_add(film + pixel, radiance, 0, params.pass, counters);
   atomic_add(&counters->rays, rays);
 }

@@ -205,13 +205,24 @@ typedef struct {
 } SppmPixel;
 CHECK_SIZE(SppmPixel, 16);
 
-// A pixel's sum of radiance estimates, one per pass, each channel as an unevaluated sum hi + lo.
+// A pixel's sum of radiance estimates, one per pass, each channel as an unevaluated sum hi + lo, and what tells how
+// far their mean may be off.
 typedef struct {
   float sum[3];
   float low[3];
   uint left_out;  // estimates that were not finite: the mean is over the others
+  float spread;   // sum of the squared deviations of the estimates' luminance from their mean
+  float blur[2];  // what luminance owes to the photons' kernel, summed over passes of even and of odd number
 } FilmPixel;
-CHECK_SIZE(FilmPixel, 28);
+CHECK_SIZE(FilmPixel, 40);
+
+// How far a pixel's luminance may be off.
+typedef struct {
+  float luminance;  // the mean of its estimates
+  float noise;      // standard deviation of that
+  float bias;       // absolute
+} PixelError;
+CHECK_SIZE(PixelError, 12);
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0.

@@ -1,14 +1,16 @@
 #include "film.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace causticl {
 
-Film::Film(Device& device, int width, int height)
+Film::Film(Device& device, const KernelOptions& kernels, int width, int height)
     : device_(device),
       width_(width),
       height_(height),
-      pixels_(device.buffer(pixels() * sizeof(FilmPixel), "film")) {
+      pixels_(device.buffer(pixels() * sizeof(FilmPixel), "film")),
+      pixel_errors_(build_pass(device, "film", kernels), "pixel_errors") {
   device_.clear(pixels_, pixels() * sizeof(FilmPixel));
 }
 
@@ -23,6 +25,21 @@ Picture Film::picture(std::uint64_t passes) {
           static_cast<float>(scale * (static_cast<double>(sums[i].sum[c]) + sums[i].low[c]));
   }
   return picture;
+}
+
+std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
+  // A stride that shares no factor with the width visits all columns.
+  std::size_t stride = (pixels() + most - 1) / most;
+  while (stride > 1 && std::gcd(stride, static_cast<std::size_t>(width_)) != 1) ++stride;
+  const std::size_t count = (pixels() + stride - 1) / stride;
+  if (errors_capacity_ < count) {
+    errors_ = device_.buffer(count * sizeof(PixelError), "errors of pixels");
+    errors_capacity_ = count;
+  }
+  set_arguments(pixel_errors_, pixels_, errors_, static_cast<cl_uint>(width_), static_cast<cl_uint>(height_),
+                static_cast<cl_uint>(passes), static_cast<cl_uint>(stride), static_cast<cl_uint>(count));
+  device_.launch(pixel_errors_, count);
+  return device_.download<PixelError>(errors_, count);
 }
 
 }  // namespace causticl

@@ -3,6 +3,7 @@
 
 #include "device.hpp"
 #include "image.hpp"
+#include "kernels.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -10,7 +11,7 @@ namespace causticl {
 class Film {
  public:
   /// All black.
-  Film(Device& device, int width, int height);
+  Film(Device& device, const KernelOptions& kernels, int width, int height);
 
   const cl::Buffer& buffer() const { return pixels_; }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
@@ -19,10 +20,17 @@ class Film {
   /// The mean of `passes` estimates a pixel, of those that were finite. Waits for the queue.
   Picture picture(std::uint64_t passes);
 
+  /// The errors of every pixel after `passes` passes, or of `most` pixels at most, spread over the picture.
+  /// Waits for the queue.
+  std::vector<PixelError> errors(std::uint64_t passes) { return errors(passes, pixels()); }
+  std::vector<PixelError> errors(std::uint64_t passes, std::size_t most);
+
  private:
   Device& device_;
   int width_, height_;
-  cl::Buffer pixels_;
+  cl::Buffer pixels_, errors_;
+  std::size_t errors_capacity_ = 0;
+  cl::Kernel pixel_errors_;
 };
 
 }  // namespace causticl

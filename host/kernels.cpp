@@ -23,6 +23,7 @@ const std::map<std::string, unsigned> effects_read{
     {"photon", geometry_effects | shading_effects | EFFECT_SHADOW_RAYS},
     {"grid", 0},
     {"gather", 0},
+    {"film", 0},
     {"path", geometry_effects | shading_effects | EFFECT_LENS},
 };
 

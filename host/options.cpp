@@ -25,6 +25,15 @@ std::optional<T> number(const std::string& text) {
   return value;
 }
 
+/// "2%" or "0.02" as a share between 0 and `below`.
+std::optional<double> parse_share(std::string text, double below) {
+  const bool percent = !text.empty() && text.back() == '%';
+  if (percent) text.pop_back();
+  auto value = number<double>(text);
+  if (value && percent) *value /= 100;
+  return value && *value > 0 && *value < below ? value : std::nullopt;
+}
+
 std::optional<std::pair<int, int>> parse_size(const std::string& text) {
   const auto cross = text.find_first_of("xX");
   if (cross == std::string::npos) return {};
@@ -57,6 +66,8 @@ const auto is_seconds = [](const std::string& text) {
   const auto value = number<double>(text);
   return value && std::isfinite(*value) && *value > 0;
 };
+const auto is_error = [](const std::string& text) { return parse_share(text, 10).has_value(); };
+const auto is_confidence = [](const std::string& text) { return parse_share(text, 1).has_value(); };
 const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
 const auto is_override = [](const std::string& text) {
   const auto equals = text.find('=');
@@ -74,7 +85,7 @@ const auto is_folder = [](const std::string& text) {
 
 /// What CLI11 leaves as text.
 struct Texts {
-  std::string integrator, size, precision, triangle_test;
+  std::string integrator, size, precision, triangle_test, wanted_error, confidence;
   std::vector<std::string> overrides;
 };
 
@@ -97,7 +108,7 @@ void add_scene_options(CLI::App& app, Options& options, Texts& texts) {
 }
 
 /// Where the picture goes and how long the render runs.
-void add_output_options(CLI::App& app, Options& options) {
+void add_output_options(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("-o,--output", options.outputs,
                  "image to write: .png (tone-mapped), .exr or .pfm (linear);\n"
                  "may be repeated. Default: the scene's `path`, else its name\n"
@@ -117,6 +128,15 @@ void add_output_options(CLI::App& app, Options& options) {
   app.add_option("--time", options.time_limit, "stop after this time if the passes are not done before")
       ->check(expect("a positive number of seconds", is_seconds))
       ->type_name("SECONDS");
+  app.add_option("--error", texts.wanted_error,
+                 "stop when the picture's estimated error is this, as in 2%;\nthere is no limit of passes "
+                 "then but --passes")
+      ->check(expect("a share between 0 and 1000%, as in 2% or 0.02", is_error))
+      ->type_name("SHARE");
+  app.add_option("--confidence", texts.confidence,
+                 "the share of pixels that the error is to hold for; 90% by\ndefault")
+      ->check(expect("a share between 0 and 100%, as in 95% or 0.95", is_confidence))
+      ->type_name("SHARE");
   app.add_option("--seed", options.seed, "1 by default; the same seed gives the same image to the bit")
       ->check(whole_number(0, 4294967295))
       ->type_name("N");
@@ -246,7 +266,7 @@ Options parse_options(int argc, const char* const* argv) {
 
   CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
   add_scene_options(render, options, texts);
-  add_output_options(render, options);
+  add_output_options(render, options, texts);
   add_method_options(render, options, texts);
   add_device_options(render, options);
   add_report_options(render, options);
@@ -293,6 +313,8 @@ Options parse_options(int argc, const char* const* argv) {
     throw UserError(
         "--triangle-test precomputed: its transforms are stored in single precision; expected --precision "
         "float");
+  if (!texts.wanted_error.empty()) options.wanted_error = parse_share(texts.wanted_error, 10);
+  if (!texts.confidence.empty()) options.confidence = *parse_share(texts.confidence, 1);
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
   for (const auto& text : texts.overrides) {
     const auto equals = text.find('=');

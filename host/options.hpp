@@ -24,7 +24,9 @@ struct Options {
   std::vector<std::string> outputs;  // empty: the scene says
   std::optional<int> passes, samples;
   std::optional<std::int64_t> photons;
-  std::optional<double> time_limit;  // seconds
+  std::optional<double> time_limit;    // seconds
+  std::optional<double> wanted_error;  // a share
+  double confidence = 0.9;
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   std::string device;    // as find_device takes it

@@ -30,6 +30,8 @@ const char* reason(StopReason stop) {
   switch (stop) {
     case StopReason::time:
       return "time limit reached";
+    case StopReason::error:
+      return "error reached";
     case StopReason::interrupted:
       return "interrupted";
     case StopReason::passes:
@@ -59,12 +61,19 @@ std::string clock_time(double seconds) {
   return formatted("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
+std::string percentage(double share) {
+  const double percent = 100 * share;
+  return formatted("%.*f%%", percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0, percent);
+}
+
 std::string progress_text(const Progress& now, double photons_per_second, double rays_per_second, int width) {
   // In the order of their worth: those at the end give way first.
   std::vector<std::string> parts = {formatted("pass %llu/%llu", static_cast<unsigned long long>(now.pass),
                                               static_cast<unsigned long long>(now.passes)),
                                     clock_time(now.seconds) + " elapsed",
                                     clock_time(now.remaining) + " left"};
+  if (now.error)
+    parts.push_back("error " + percentage(*now.error) + ", half of it in " + clock_time(now.seconds_to_half));
   if (now.photons) parts.push_back(si_number(photons_per_second) + " photons/s");
   parts.push_back(si_number(rays_per_second) + " rays/s");
 
@@ -139,6 +148,15 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
   std::fprintf(stream_, "causticl: wrote %s: %llu passes in %.1f s (%s)\n", names.c_str(),
                static_cast<unsigned long long>(statistics.passes), statistics.seconds,
                reason(statistics.stop));
+  if (statistics.error) {
+    const PictureError& error = *statistics.error;
+    std::fprintf(stream_, "causticl: error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
+                 percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
+                 percentage(error.noise).c_str(), percentage(error.bias).c_str());
+    if (statistics.photons)
+      std::fprintf(stream_, ", %s photons", si_number(static_cast<double>(statistics.photons)).c_str());
+    std::fputs("\n", stream_);
+  }
   for (const auto& warning : fault_warnings(statistics.faults))
     std::fprintf(stream_, "causticl: warning: %s\n", warning.c_str());
   std::fflush(stream_);

@@ -9,6 +9,7 @@
 
 #include "effects.hpp"
 #include "error.hpp"
+#include "error_watch.hpp"
 #include "path.hpp"
 #include "sppm.hpp"
 
@@ -57,6 +58,9 @@ class Checkpoints {
   std::uint64_t last_pass_ = 0;
 };
 
+// With fewer passes the estimate of the error is too noisy to stop by.
+constexpr std::uint64_t fewest_passes = 8;
+
 std::uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -78,7 +82,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   const KernelOptions kernels{chosen_effects(find_effects(scene), options.effects), options.precision,
                               options.triangle_test, options.kernel_dir, options.dump_kernels};
   const DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
-  Film film(device, scene.width, scene.height);
+  Film film(device, kernels, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;
   if (sppm) {
     auto made = std::make_unique<Sppm>(scene, device_scene, device, film, kernels, options.seed);
@@ -104,11 +108,14 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   double recent_pass = 0;  // the longer of the last two: the first compiles kernels
   double last_pass = 0;
   double longest_write = 0;
+  ErrorWatch watch(film, scene.renderer, options.confidence);
+  statistics.confidence = options.confidence;
   const auto write = [&](Picture picture) {
     const auto write_start = Clock::now();
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
     statistics.faults = totals.faults;
+    statistics.error = watch.measure(statistics.passes);
     for (const auto& file : options.outputs)
       write_picture(file, picture, metadata_of(scene, options, statistics));
     longest_write = std::max(longest_write, seconds_since(write_start));
@@ -124,11 +131,24 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     const double this_pass = seconds_since(pass_start);
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
+    watch.update(pass + 1);
     if (progress) {
       const double per_pass = seconds_since(loop_start) / static_cast<double>(pass + 1);
       double remaining = per_pass * static_cast<double>(wanted - pass - 1);
       if (options.time_limit) remaining = std::min(remaining, std::max(0.0, *options.time_limit - elapsed));
-      progress({pass + 1, wanted, elapsed, remaining, totals.photons_emitted, totals.rays});
+      Progress now{pass + 1, wanted, elapsed, remaining, {}, 0, totals.photons_emitted, totals.rays};
+      if (watch.last()) {
+        now.error = watch.last()->error;
+        now.seconds_to_half = per_pass * watch.passes_until(*now.error / 2, pass + 1);
+        if (options.wanted_error)
+          now.remaining = std::min(remaining, per_pass * watch.passes_until(*options.wanted_error, pass + 1));
+      }
+      progress(now);
+    }
+    if (options.wanted_error && pass + 1 >= fewest_passes && watch.last() &&
+        watch.last()->error <= *options.wanted_error) {
+      statistics.stop = StopReason::error;
+      break;
     }
     if (pass + 1 == wanted) break;
     if (interrupted && interrupted()) {

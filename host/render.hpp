@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device.hpp"
+#include "error_estimate.hpp"
 #include "faults.hpp"
 #include "image.hpp"
 #include "kernels.hpp"
@@ -19,8 +20,10 @@ namespace causticl {
 
 /// What bounds a render and where its picture goes.
 struct RenderOptions {
-  std::vector<std::string> outputs;  // files, by extension; rewritten at checkpoints
-  std::optional<double> time_limit;  // seconds from the start of render_scene
+  std::vector<std::string> outputs;    // files, by extension; rewritten at checkpoints
+  std::optional<double> time_limit;    // seconds from the start of render_scene
+  std::optional<double> wanted_error;  // stop at this estimated error of the picture
+  double confidence = 0.9;             // share of pixels that the error of the picture is to hold for
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
@@ -34,11 +37,13 @@ struct RenderOptions {
 struct Progress {
   std::uint64_t pass = 0, passes = 0;   // done, wanted
   double seconds = 0;                   // since the start
-  double remaining = 0;                 // seconds, by the time per pass so far and the time limit
+  double remaining = 0;                 // seconds, by the time per pass so far and the limits
+  std::optional<double> error;          // estimated, of the picture; none where it is not known yet
+  double seconds_to_half = 0;           // until half that error; infinite where there is no end in sight
   std::uint64_t photons = 0, rays = 0;  // so far
 };
 
-enum class StopReason { passes, time, interrupted };
+enum class StopReason { passes, time, error, interrupted };
 
 /// What a finished render reports (`--stats`, `--stats-json`, EXR metadata).
 struct Statistics {
@@ -50,6 +55,8 @@ struct Statistics {
   double kernel_build_seconds = 0;
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
+  std::optional<PictureError> error;  // estimated; none after a single pass and of a black picture
+  double confidence = 0.9;            // share of pixels that `error` holds for
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
   std::uint64_t stored_photons = 0;     // in the last pass

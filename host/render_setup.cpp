@@ -1,6 +1,7 @@
 #include "render_setup.hpp"
 
 #include <filesystem>
+#include <limits>
 
 #include "image.hpp"
 #include "output_file.hpp"
@@ -9,6 +10,8 @@ namespace causticl {
 
 void apply_options(const Options& options, Scene& scene) {
   auto& renderer = scene.renderer;
+  // Who asks for an error wants as many passes as it takes.
+  if (options.wanted_error) renderer.passes = renderer.samples = std::numeric_limits<int>::max();
   const auto apply = [&](const auto& value, auto& target, Integrator owner, const std::string& option) {
     if (!value) return;
     if (renderer.integrator != owner) {
@@ -48,6 +51,8 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   RenderOptions result;
   result.outputs = outputs;
   result.time_limit = options.time_limit;
+  result.wanted_error = options.wanted_error;
+  result.confidence = options.confidence;
   result.seed = options.seed;
   result.precision = options.precision;
   result.threads = options.threads;

@@ -25,7 +25,17 @@ using Number = unsigned long long;
 }
 
 const char* name(StopReason stop) {
-  return stop == StopReason::time ? "time" : stop == StopReason::interrupted ? "interrupted" : "passes";
+  switch (stop) {
+    case StopReason::time:
+      return "time";
+    case StopReason::error:
+      return "error";
+    case StopReason::interrupted:
+      return "interrupted";
+    case StopReason::passes:
+      break;
+  }
+  return "passes";
 }
 
 std::string kernel_table(const std::map<std::string, KernelTime>& kernels) {
@@ -61,6 +71,10 @@ std::string statistics_table(const Statistics& s) {
   append(text, "  %-28s %s\n", "device", s.device.c_str());
   append(text, "  %-28s %s\n", "precision", name_of(s.precision));
   append(text, "  %-28s %llu (stopped by: %s)\n", "passes", Number(s.passes), name(s.stop));
+  if (s.error)
+    append(text, "  %-28s %s in %s of the pixels (noise alone %s, bias alone %s)\n", "error, at most",
+           percentage(s.error->error).c_str(), percentage(s.confidence).c_str(),
+           percentage(s.error->noise).c_str(), percentage(s.error->bias).c_str());
   append(text, "  %-28s %.3f s\n", "time", s.seconds);
   append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
   append(text, "  %-28s %.3f s\n", "  building kernels", s.kernel_build_seconds);
@@ -98,6 +112,10 @@ std::string statistics_json(const Statistics& s) {
                                    {"device", s.device},
                                    {"precision", name_of(s.precision)},
                                    {"stop", name(s.stop)},
+                                   {"error", nullptr},
+                                   {"error_noise", nullptr},
+                                   {"error_bias", nullptr},
+                                   {"confidence", s.confidence},
                                    {"seconds", s.seconds},
                                    {"first_pass_seconds", s.first_pass_seconds},
                                    {"kernel_build_seconds", s.kernel_build_seconds},
@@ -119,6 +137,11 @@ std::string statistics_json(const Statistics& s) {
                                    {"bytes_per_pixel", s.bytes_per_pixel},
                                    {"kernels", milliseconds},
                                    {"kernel_launches", launches}};
+  if (s.error) {
+    object["error"] = s.error->error;
+    object["error_noise"] = s.error->noise;
+    object["error_bias"] = s.error->bias;
+  }
   for (const auto& kind : fault_kinds) object[kind.key] = s.faults.*kind.count;
   // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

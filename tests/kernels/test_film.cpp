@@ -26,7 +26,7 @@ kernel void add_samples(global const float4 *samples, global FilmPixel *film, vo
                         uint pixels, uint count) {
   uint i = get_global_id(0);
   if (i >= pixels) return;
-  for (uint n = 0; n < count; ++n) film_add(film + i, samples[i * count + n].xyz, counters);
+  for (uint n = 0; n < count; ++n) film_add(film + i, samples[i * count + n].xyz, samples[i * count + n].w, n, counters);
 }
 )";
 

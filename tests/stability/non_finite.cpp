@@ -20,10 +20,11 @@ typedef struct { FilmPixel pixel; uint counted; } Output;
 kernel void add_four(global const Input *inputs, global Output *outputs, uint count, volatile global Counters *counters) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  FilmPixel empty = {{0, 0, 0}, {0, 0, 0}, 0};
+  FilmPixel empty = {{0}};
   outputs[i].pixel = empty;
   counters[i].non_finite = 0;
-  for (int k = 0; k < 4; ++k) film_add(&outputs[i].pixel, convert_real3(vload3(k, inputs[i].estimates[0])), counters + i);
+  for (int k = 0; k < 4; ++k)
+    film_add(&outputs[i].pixel, convert_real3(vload3(k, inputs[i].estimates[0])), 0, k, counters + i);
   outputs[i].counted = counters[i].non_finite;
 }
 )";

@@ -23,7 +23,7 @@ kernel void add_many(global FilmPixel *film, global uint *states, volatile globa
     state = next_state(state);
     float u = (state >> 8) * 5.9604644775390625e-8f;
     float bright = state < 42950u ? 1e6f : 1.0f;
-    film_add(film + i, (real3)(u, i % 2 ? 0.99999994f : 0.001f, u * bright), counters);
+    film_add(film + i, (real3)(u, i % 2 ? 0.99999994f : 0.001f, u * bright), 0, pass, counters);
   }
   states[i] = state;
 }
@@ -37,11 +37,11 @@ typedef struct {
 kernel void add_one(global const Addition *in, global Added *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  FilmPixel pixel = {{in[i].sum[0], in[i].sum[1], in[i].sum[2]}, {0, 0, 0}};
+  FilmPixel pixel = {{in[i].sum[0], in[i].sum[1], in[i].sum[2]}};
   Counters counters = {0, 0, 0, 0};
   out[i].pixel = pixel;
   out[i].counters = counters;
-  film_add(&out[i].pixel, (real3)(in[i].sample[0], in[i].sample[1], in[i].sample[2]), &out[i].counters);
+  film_add(&out[i].pixel, (real3)(in[i].sample[0], in[i].sample[1], in[i].sample[2]), 0, 1, &out[i].counters);
 }
 kernel void quantise(global const float2 *in, global uint2 *out, uint count) {
   uint i = get_global_id(0);
