@@ -18,10 +18,17 @@ struct Image {
 /// otherwise they are value/255. Throws UserError naming the file and the fault.
 Image read_image(const std::string& file, bool srgb);
 
-/// A rendered picture: linear RGB, three floats a pixel, TOP row first.
+/// One number of every pixel beside its colour, under the name that it has in an EXR file.
+struct Channel {
+  std::string name;
+  std::vector<float> values;
+};
+
+/// A rendered picture: linear RGB, three floats a pixel, TOP row first; and what else is known of its pixels.
 struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgb;
+  std::vector<Channel> channels = {};
 };
 
 /// Text attributes for formats that can hold them (EXR).
@@ -31,8 +38,11 @@ using Metadata = std::map<std::string, std::string>;
 /// does not exist or cannot be written, so that this is known before hours of rendering.
 void check_output(const std::string& file);
 
-/// Writes by extension: PNG (clamp to [0,1], power 1/2.2, 8 bit), EXR (float, with metadata), PFM. Writes to
-/// a temporary name in the same folder, then renames. Throws UserError.
+/// Whether a file of this name can hold Picture::channels.
+bool holds_channels(const std::string& file);
+
+/// Writes by extension: PNG (clamp to [0,1], power 1/2.2, 8 bit), EXR (float, with channels and metadata),
+/// PFM. Writes to a temporary name in the same folder, then renames. Throws UserError.
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata);
 
 /// Reads .pfm or .exr back as linear RGB. Throws UserError.

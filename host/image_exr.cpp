@@ -114,14 +114,16 @@ std::string encode_exr(const Picture& picture, const Metadata& metadata) {
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const auto& [name, text] : metadata) header.insert(name, Imf::StringAttribute(text));
   Imf::FrameBuffer frame;
-  const char* names[] = {"R", "G", "B"};
-  for (int c = 0; c < 3; ++c) {
-    header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+  const auto insert = [&](const std::string& name, const float* values, std::size_t floats_a_pixel) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     // OpenEXR asks for a pointer to write through in its one Slice; it only reads here.
-    auto* base = const_cast<char*>(reinterpret_cast<const char*>(picture.rgb.data() + c));
-    frame.insert(names[c], Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float),
-                                      3 * sizeof(float) * static_cast<std::size_t>(picture.width)));
-  }
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(values));
+    const std::size_t step = floats_a_pixel * sizeof(float);
+    frame.insert(name, Imf::Slice(Imf::FLOAT, base, step, step * static_cast<std::size_t>(picture.width)));
+  };
+  const char* names[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) insert(names[c], picture.rgb.data() + c, 3);
+  for (const auto& [name, values] : picture.channels) insert(name, values.data(), 1);
   MemoryOut stream;
   {
     Imf::OutputFile file(stream, header);

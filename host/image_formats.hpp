@@ -18,7 +18,8 @@ bool is_exr(const std::string& bytes);
 /// alpha is 1. Throws std::exception.
 void decode_exr(const std::string& bytes, int& width, int& height, std::vector<float>& rgba);
 
-/// R, G, B as 32-bit floats, ZIP compressed, with one string attribute for each entry of `metadata`.
+/// R, G, B and all other channels as 32-bit floats, ZIP compressed, with one string attribute for each entry
+/// of `metadata`.
 std::string encode_exr(const Picture& picture, const Metadata& metadata);
 
 /// PFM, colour (PF) or grey (Pf), of either byte order. Throws std::runtime_error.

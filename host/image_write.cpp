@@ -49,6 +49,8 @@ void check_output(const std::string& file) {
   check_writable(file);
 }
 
+bool holds_channels(const std::string& file) { return lower_extension(file) == ".exr"; }
+
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata) {
   check_output(file);
   std::string bytes;

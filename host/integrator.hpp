@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "faults.hpp"
+#include "image.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -22,6 +23,9 @@ class PassIntegrator {
     Faults faults;
   };
   virtual Totals finish() = 0;
+
+  /// What the integrator knows of every pixel beside its colour. Waits for the queue.
+  virtual std::vector<Channel> channels() { return {}; }
 
   /// Device memory that grows with the number of pixels, without the film.
   virtual double bytes_per_pixel() const = 0;

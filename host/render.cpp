@@ -33,9 +33,22 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
                     {"device", statistics.device},
                     {"precision", name_of(statistics.precision)},
                     {"seconds", std::to_string(statistics.seconds)},
+                    {"error", statistics.error ? std::to_string(statistics.error->error) : "unknown"},
+                    {"confidence", std::to_string(statistics.confidence)},
                     {"causticl_version", CAUSTICL_VERSION}};
   for (const auto& kind : fault_kinds) metadata[kind.key] = std::to_string(statistics.faults.*kind.count);
   return metadata;
+}
+
+/// error.noise and error.bias: of the luminance of each pixel.
+void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors) {
+  Channel noise{"error.noise", {}}, bias{"error.bias", {}};
+  for (const auto& error : errors) {
+    noise.values.push_back(error.noise);
+    bias.values.push_back(error.bias);
+  }
+  channels.push_back(std::move(noise));
+  channels.push_back(std::move(bias));
 }
 
 /// When outputs are rewritten while passes go on.
@@ -110,8 +123,13 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   double longest_write = 0;
   ErrorWatch watch(film, scene.renderer, options.confidence);
   statistics.confidence = options.confidence;
+  const bool with_channels = std::any_of(options.outputs.begin(), options.outputs.end(), holds_channels);
   const auto write = [&](Picture picture) {
     const auto write_start = Clock::now();
+    if (with_channels) {
+      picture.channels = integrator->channels();
+      append_errors(picture.channels, film.errors(statistics.passes));
+    }
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
     statistics.faults = totals.faults;

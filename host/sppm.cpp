@@ -129,6 +129,25 @@ PassIntegrator::Totals Sppm::finish() {
   return {emitted_, photon_map_.stored(), totals_.rays, faults};
 }
 
+std::vector<Channel> Sppm::channels() {
+  // One radius for all is that of the pass to come; photons are counted for radii of their own alone.
+  const bool own_radii = spec_.schedule == Schedule::pixel;
+  const auto pixels = device_.download<SppmPixel>(pixels_, film_.pixels());
+  std::vector<Channel> channels{{"sppm.radius", std::vector<float>(pixels.size())}};
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    channels[0].values[i] =
+        static_cast<float>(std::sqrt(own_radii ? pixels[i].radius2_hi : schedule_radius2_));
+  if (!own_radii) return channels;
+  channels.push_back({"sppm.photons", std::vector<float>(pixels.size())});
+  channels.push_back({"sppm.N", std::vector<float>(pixels.size())});
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double photons = std::ldexp(pixels[i].photons_high, 32) + pixels[i].photons_low;
+    channels[1].values[i] = static_cast<float>(photons);
+    channels[2].values[i] = static_cast<float>(spec_.alpha * photons);
+  }
+  return channels;
+}
+
 double Sppm::bytes_per_pixel() const {
   const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * visible_point_bytes_);
   return sizeof(SppmPixel) + chunk / static_cast<double>(film_.pixels());

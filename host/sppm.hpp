@@ -18,6 +18,8 @@ class Sppm : public PassIntegrator {
 
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
+  /// sppm.N, sppm.radius and sppm.photons: N and R of the paper, and the photons found.
+  std::vector<Channel> channels() override;
   double bytes_per_pixel() const override;
 
   double first_radius() const { return first_radius_; }

@@ -30,7 +30,7 @@ std::string printed(Print print) {
 }
 
 Progress progress_at(std::uint64_t pass, double seconds) {
-  return {pass, 100, seconds, 10, pass * 1000000, pass * 3000000};
+  return {pass, 100, seconds, 10, {}, 0, pass * 1000000, pass * 3000000};
 }
 
 std::size_t line_count(const std::string& text) {
@@ -114,6 +114,18 @@ TEST_CASE("a narrow terminal keeps the pass and drops the rates") {
   CHECK(progress_text(progress_at(25, 7), 1e6, 3e6, 40) == "pass 25/100, 0:07 elapsed, 0:10 left");
 }
 
+TEST_CASE("the error and the time to half of it are shown once they are known") {
+  Progress now = progress_at(25, 7);
+  now.error = 0.0534;
+  now.seconds_to_half = 754;
+  CHECK_THAT(progress_text(now, 1e6, 3e6, 150),
+             Contains("0:10 left, error 5.3%, half of it in 12:34, 1.00 M photons/s"));
+  now.seconds_to_half = std::numeric_limits<double>::infinity();
+  CHECK_THAT(progress_text(now, 1e6, 3e6, 150), Contains("half of it in ?, "));
+  CHECK(percentage(0.00341) == "0.34%");
+  CHECK(percentage(0.1234) == "12%");
+}
+
 TEST_CASE("path tracing shows no photons") {
   Progress now = progress_at(25, 7);
   now.photons = 0;
@@ -177,6 +189,30 @@ TEST_CASE("the last line says what was written, the passes, the seconds and the 
     ProgressReport(stream, false).finish({"a.png", "b.exr"}, statistics);
   });
   CHECK(text == "causticl: wrote a.png, b.exr: 7 passes in 2.5 s (time limit reached)\n");
+}
+
+TEST_CASE("the error is told with its confidence and its parts, and is null where it is not known") {
+  Statistics statistics = example_statistics();
+  const auto last_lines = [&] {
+    return printed([&](std::FILE* stream) { ProgressReport(stream, false).finish({"a.png"}, statistics); });
+  };
+  CHECK_THAT(last_lines(), !Contains("error"));
+  CHECK(nlohmann::json::parse(statistics_json(statistics))["error"].is_null());
+  CHECK_THAT(statistics_table(statistics), !Contains("error"));
+  statistics.error = PictureError{0.021, 0.018, 0.0092};
+  statistics.confidence = 0.95;
+  statistics.stop = StopReason::error;
+  CHECK_THAT(last_lines(),
+             Contains("(error reached)\n") &&
+                 Contains("causticl: error 2.1% or less in 95% of the pixels (noise alone 1.8%, "
+                          "bias alone 0.92%), 700 photons\n"));
+  const auto object = nlohmann::json::parse(statistics_json(statistics));
+  CHECK(object["error"] == 0.021);
+  CHECK(object["error_noise"] == 0.018);
+  CHECK(object["error_bias"] == 0.0092);
+  CHECK(object["confidence"] == 0.95);
+  CHECK(object["stop"] == "error");
+  CHECK_THAT(statistics_table(statistics), Contains("2.1% in 95% of the pixels"));
 }
 
 TEST_CASE("the table lists kernels by their share of the time") {

@@ -131,3 +131,33 @@ TEST_CASE("samples that are not finite change counters and no pixel's sum") {
   }
   CHECK(left_out == bad);
 }
+
+TEST_CASE("the film's spread and blur equal two-pass sums of its finite estimates") {
+  RandomInputs random(53);
+  constexpr uint pixels = 256, count = 300;
+  std::vector<float4> samples(pixels * count);
+  for (auto& sample : samples) {
+    const double size = random.uniform() < 0.01 ? 50 : 1;
+    sample = {float(size * random.uniform()), float(size * random.uniform()), float(size * random.uniform()),
+              float(random.uniform(-1, 2))};
+    if (random.uniform() < 0.01) sample.y = std::numeric_limits<float>::quiet_NaN();
+  }
+  Counters counters{};
+  const auto film = add_samples(samples, pixels, counters);
+  for (uint i = 0; i < pixels; ++i) {
+    double sum = 0, spread = 0, blur[2] = {};
+    std::vector<double> finite;
+    for (uint n = 0; n < count; ++n) {
+      const float4& s = samples[i * count + n];
+      if (std::isnan(s.y)) continue;
+      finite.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
+      sum += finite.back();
+      blur[n % 2] += s.w;
+    }
+    const double mean = sum / static_cast<double>(finite.size());
+    for (const double value : finite) spread += (value - mean) * (value - mean);
+    CHECK(film[i].spread == Approx(spread).epsilon(1e-5));
+    for (int parity = 0; parity < 2; ++parity)
+      CHECK(film[i].blur[parity] == Approx(blur[parity]).margin(1e-4));
+  }
+}

@@ -155,7 +155,8 @@ TEST_CASE("a cell of more photons than the lanes can add up is summed exactly") 
   std::vector<GatherPoint> points;
   for (int i = 0; i < 16; ++i) points.push_back({0.005f, 0, 0.005f, normal});
   const auto sums = gather(points, photons, make_grid({-1, -1, -1}, 0.2, 16, 16, 16, count), 0.01f);
-  const GatherSums expected{count * 65535, count * 65535, count * 65535, count};
+  const std::uint64_t flux = count * 65535;
+  const GatherSums expected{flux, flux, flux, count, flux, flux, flux};
   for (const auto& sum : sums) CHECK((sum == expected));
 }
 
@@ -231,20 +232,27 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
 
     const float radius2 = shared_radius2 > 0 ? shared_radius2 : 0.01f;
     const auto sums = brute_force(points, photons, radius2);
-    double worst = 0, worst_radius = 0;
+    double worst = 0, worst_radius = 0, worst_blur = 0, largest_blur = 0;
     std::size_t wrong = 0;
     for (uint i = 0; i < pixels; ++i) {
-      double radiance[3] = {0, 0, 0};
+      double radiance[3] = {0, 0, 0}, blur = 0;
       std::uint64_t count = 0;
       for (uint s = 0; s < samples; ++s) {
         const VisiblePoint& v = visible[i * samples + s];
         const GatherSums& sum = sums[i * samples + s];
         if (v.weight[0] + v.weight[1] + v.weight[2] > 0) count += sum.count;
         const std::uint64_t flux[3] = {sum.red, sum.green, sum.blue};
-        for (int c = 0; c < 3; ++c)
-          radiance[c] +=
-              v.radiance[c] + v.weight[c] * double(flux[c]) * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
+        const std::uint64_t near[3] = {sum.near_red, sum.near_green, sum.near_blue};
+        constexpr double luminance[3] = {0.2126, 0.7152, 0.0722};
+        for (int c = 0; c < 3; ++c) {
+          const double density = v.weight[c] * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
+          radiance[c] += v.radiance[c] + density * double(flux[c]);
+          blur += luminance[c] * density * (double(flux[c]) - 2 * double(near[c])) / samples;
+        }
       }
+      largest_blur = std::max(largest_blur, std::fabs(blur));
+      if (i != broken) worst_blur = std::max(worst_blur, std::fabs(out[first + i].blur[0] - blur));
+      wrong += out[first + i].blur[1] != 0 || out[first + i].spread != 0;
       const SppmPixel& pixel = after[first + i];
       if (shared_radius2 > 0) {
         wrong += pixel.radius2_hi != 0.01f || pixel.photons_low != 0;
@@ -264,6 +272,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
     for (uint i = 0; i < first; ++i) wrong += out[i].sum[0] != 0 || after[i].radius2_hi != 0.01f;
     CHECK(wrong == 0);
     CHECK(worst < 2e-6);
+    CHECK(worst_blur < 1e-5 * largest_blur);
     CHECK(worst_radius < 1e-6);
   }
 

@@ -1,3 +1,5 @@
+#include <ImfFrameBuffer.h>
+#include <ImfInputFile.h>
 #include <ImfRgbaFile.h>
 #include <stb/stb_image_write.h>
 #include <sys/resource.h>
@@ -172,6 +174,7 @@ TEST_CASE("EXR keeps every bit and carries its metadata") {
   const std::string file = folder.path("a.exr");
   Picture picture = small_picture();
   picture.rgb[4] = std::numeric_limits<float>::infinity();
+  picture.channels = {{"error.noise", {1, 2, 3, 4, 5, 6}}, {"sppm.N", {7, 8, 9, 10, 11, 12}}};
   const Metadata metadata{{"scene", "a b.json"}, {"seed", "7"}, {"version", "0.1"}, {"device", "x"}};
   write_picture(file, picture, metadata);
   const Picture back = read_picture(file);
@@ -183,6 +186,16 @@ TEST_CASE("EXR keeps every bit and carries its metadata") {
     CAPTURE(name);
     const std::string size{static_cast<char>(text.size()), '\0', '\0', '\0'};
     CHECK(bytes.find(name + '\0' + "string" + '\0' + size + text) != bytes.npos);
+  }
+  Imf::InputFile exr(file.c_str());
+  for (const auto& [name, values] : picture.channels) {
+    std::vector<float> read(6);
+    Imf::FrameBuffer frame;
+    frame.insert(
+        name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(read.data()), sizeof(float), 3 * sizeof(float)));
+    exr.setFrameBuffer(frame);
+    exr.readPixels(0, 1);
+    CHECK(read == values);
   }
   // As a texture the same file has its bottom row first, and its values are not touched by the sRGB curve.
   const Image image = read_image(file, true);

@@ -66,9 +66,10 @@ struct GatherPoint {
   float x, y, z;
   uint normal;
 };
-/// Gathered as ulong4 on the device.
+/// Gathered as two ulong4 on the device.
 struct GatherSums {
   std::uint64_t red = 0, green = 0, blue = 0, count = 0;
+  std::uint64_t near_red = 0, near_green = 0, near_blue = 0, unused = 0;
   bool operator==(const GatherSums&) const = default;
 };
 
@@ -83,7 +84,8 @@ kernel void gather_points(global const float4 *points, global const uint *starts
   if (i >= count) return;
   Gathered sum = gather(grid, starts, sorted, convert_real3(points[i].xyz), normal_unpack(as_uint(points[i].w)),
                         radius2);
-  sums[i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+  sums[2 * i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+  sums[2 * i + 1] = (ulong4)(sum.near_red, sum.near_green, sum.near_blue, 0);
 }
 )";
 
@@ -111,7 +113,8 @@ inline GatherSums gather_brute_force(const GatherPoint& p, const std::vector<Pho
     n[axis] = static_cast<float>(normal_components(p.normal)[axis]) * (1.0f / 127) * (1.0f / 127);
   for (const Photon& photon : photons) {
     const float dx = photon.position[0] - p.x, dy = photon.position[1] - p.y, dz = photon.position[2] - p.z;
-    if (!(dx * dx + dy * dy + dz * dz <= radius2)) continue;
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    if (!(distance2 <= radius2)) continue;
     const auto q = normal_components(photon.normal);
     if (!(n[0] * static_cast<float>(q[0]) + n[1] * static_cast<float>(q[1]) +
               n[2] * static_cast<float>(q[2]) >
@@ -121,6 +124,10 @@ inline GatherSums gather_brute_force(const GatherPoint& p, const std::vector<Pho
     sums.green += photon.flux_rg >> 16;
     sums.blue += photon.flux_b;
     ++sums.count;
+    if (!(distance2 <= radius2 / 2)) continue;
+    sums.near_red += photon.flux_rg & 0xffffu;
+    sums.near_green += photon.flux_rg >> 16;
+    sums.near_blue += photon.flux_b;
   }
   return sums;
 }

@@ -1,0 +1,125 @@
+// The film's estimate of its own error against the same sums in double precision, and against pixels whose
+// error is known.
+#include <cmath>
+
+#include "film.hpp"
+#include "vector_inputs.hpp"
+
+using namespace causticl;
+
+namespace {
+
+std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint width, uint passes,
+                                      uint stride) {
+  auto program = build_test_program("#include \"pass_film.cl\"\n");
+  auto pixels = test_device().upload(film, "film");
+  const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
+  auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
+  run_kernel(program, "pixel_errors", count, pixels, errors, width, static_cast<uint>(film.size()) / width,
+             passes, stride, count);
+  return test_device().download<PixelError>(errors, count);
+}
+
+/// The same as the kernel's comment says, by the definition.
+struct Oracle {
+  double noise, bias;
+};
+Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes) {
+  const int height = static_cast<int>(film.size()) / width;
+  const auto over_window = [&](int reach, auto add) {
+    int count = 0;
+    for (int j = std::max(0, y - reach); j <= std::min(height - 1, y + reach); ++j)
+      for (int i = std::max(0, x - reach); i <= std::min(width - 1, x + reach); ++i, ++count)
+        add(film[static_cast<std::size_t>(j) * width + i]);
+    return static_cast<double>(count);
+  };
+  double variance = 0, sum = 0, squares = 0;
+  const double small = over_window(1, [&](const FilmPixel& p) {
+    const double n = passes - p.left_out;
+    variance += n > 1 ? p.spread / (n * (n - 1)) : p.spread;
+  });
+  const double even = (passes + 1) / 2, odd = std::max(passes / 2, 1u);
+  const double large = over_window(3, [&](const FilmPixel& p) {
+    const double square = p.blur[0] / even * (p.blur[1] / odd);
+    sum += square;
+    squares += square * square;
+  });
+  const double mean = sum / large;
+  const double above = mean - std::sqrt(std::max(0.0, squares / large - mean * mean) / large);
+  return {std::sqrt(variance / small), 2 * std::sqrt(std::max(0.0, above))};
+}
+
+double normal(RandomInputs& random) { return std::normal_distribution<double>()(random.engine); }
+
+}  // namespace
+
+TEST_CASE("errors of pixels equal those in double precision, at borders too") {
+  RandomInputs random(61);
+  constexpr uint width = 37, height = 23, passes = 20;
+  std::vector<FilmPixel> film(width * height);
+  for (auto& pixel : film) {
+    for (int c = 0; c < 3; ++c) pixel.sum[c] = static_cast<float>(random.uniform(0, 40));
+    pixel.left_out = random.uniform() < 0.1 ? static_cast<uint>(random.uniform(1, 21)) : 0;
+    pixel.spread = static_cast<float>(random.uniform(0, 3));
+    for (float& blur : pixel.blur) blur = static_cast<float>(random.uniform(-0.3, 1));
+  }
+  for (const uint stride : {1u, 5u}) {
+    const auto errors = device_errors(film, width, passes, stride);
+    REQUIRE(errors.size() == (film.size() + stride - 1) / stride);
+    for (uint k = 0; k < errors.size(); ++k) {
+      const uint i = k * stride;
+      const Oracle expected = oracle(film, width, i % width, i / width, passes);
+      CAPTURE(i, random.seed);
+      CHECK(errors[k].noise == Approx(expected.noise).epsilon(1e-5));
+      // Where the mean is next to its standard error the difference cancels.
+      CHECK(errors[k].bias == Approx(expected.bias).epsilon(1e-3).margin(1e-4));
+      const double n = std::max(1.0, static_cast<double>(passes) - film[i].left_out);
+      CHECK(errors[k].luminance ==
+            Approx((0.2126 * film[i].sum[0] + 0.7152 * film[i].sum[1] + 0.0722 * film[i].sum[2]) / n));
+    }
+  }
+}
+
+TEST_CASE("noise and bias of pixels are found where they are known") {
+  // Every pass of every pixel is off by a known bias and by normally distributed noise, of which the
+  // difference between the two kernels has some as well. The mean's noise is sigma / sqrt(passes).
+  RandomInputs random(62);
+  constexpr uint width = 64, height = 64, passes = 16;
+  constexpr double sigma = 0.4, bias = 0.3;
+  const auto program = build_test_program(R"(
+#include "film.cl"
+kernel void add_samples(global const float2 *samples, global FilmPixel *film, volatile global Counters *counters,
+                        uint pixels, uint passes) {
+  uint i = get_global_id(0);
+  if (i >= pixels) return;
+  for (uint n = 0; n < passes; ++n) film_add(film + i, (real3)samples[i * passes + n].x, samples[i * passes + n].y, n, counters);
+}
+)");
+  for (const bool biased : {false, true}) {
+    std::vector<float2> samples(width * height * passes);
+    for (auto& sample : samples) {
+      sample.x = static_cast<float>(1 + (biased ? bias : 0) + sigma * normal(random));
+      sample.y = static_cast<float>((biased ? bias / 2 : 0) + sigma * normal(random));
+    }
+    auto in = test_device().upload(samples, "samples");
+    auto film = test_device().upload(std::vector<FilmPixel>(width * height), "film");
+    auto counters = test_device().upload(std::vector<Counters>(1), "counters");
+    auto built = program;
+    run_kernel(built, "add_samples", width * height, in, film, counters, width * height, passes);
+    const auto errors =
+        device_errors(test_device().download<FilmPixel>(film, width * height), width, passes, 1);
+    double noise2 = 0, mean_bias = 0;
+    for (const auto& error : errors) {
+      noise2 += error.noise * error.noise / errors.size();
+      mean_bias += error.bias / errors.size();
+    }
+    CAPTURE(biased, random.seed);
+    CHECK(std::sqrt(noise2) == Approx(sigma / std::sqrt(passes)).epsilon(0.02));
+    // Noise of the difference alone must not pass for a bias of more than a small part of the noise.
+    // What is taken off for the standard error makes a bias of three times the noise an eighth smaller.
+    if (biased)
+      CHECK(mean_bias == Approx(bias * 7 / 8).epsilon(0.05));
+    else
+      CHECK(mean_bias < 0.4 * sigma / std::sqrt(passes));
+  }
+}
