@@ -78,7 +78,7 @@ double ErrorTrend::rate() const {
   // off.
   const auto [now, error] = history_.back();
   constexpr double octave = std::numbers::ln2;
-  double sum = 0.25 * octave * octave, weighted = sum * expected_rate_;
+  double sum = octave * octave, weighted = sum * expected_rate_;
   for (const auto& [passes, then] : history_) {
     const double distance = now - passes;
     if (distance > 3.01 * octave) continue;

@@ -35,8 +35,7 @@ class ErrorTrend {
 
   void add(std::uint64_t passes, double error);
 
-  /// The rate as measured over the last three octaves of passes; the expected one weighs as much as half an
-  /// octave.
+  /// The rate as measured over the last three octaves of passes; the expected one weighs as much as one.
   double rate() const;
 
   /// Passes after which the error will be `wanted`, counted from the first. Infinite where there is no end in

@@ -7,7 +7,6 @@
 
 using namespace causticl;
 using Catch::Contains;
-using Catch::EndsWith;
 
 TEST_CASE("progress on a pipe is plain lines at powers of two") {
   const TemporaryFolder folder;
@@ -57,7 +56,8 @@ TEST_CASE("SIGINT and SIGTERM finish the pass, write the image and exit with 130
     CAPTURE(run.errors);
     CHECK(run.exit_code == 130);
     CHECK_THAT(run.errors, Contains("causticl: interrupted: finishing the pass") &&
-                               Contains("causticl: wrote a.pfm, b.png: ") && EndsWith("(interrupted)\n"));
+                               Contains("causticl: wrote a.pfm, b.png: ") &&
+                               Contains("(interrupted)\ncausticl: error "));
     CHECK(names_in(folder.path("")) == Words{"a.pfm", "b.png", "stats.json"});
     CHECK(read_picture(folder.path("a.pfm")).width == 16);
     CHECK(read_image(folder.path("b.png"), false).width == 16);
@@ -101,10 +101,41 @@ TEST_CASE("--time ends the render in time") {
   const Finished run = run_causticl(
       small_render(endless + Words{"--time", "1.5", "--stats-json", "stats.json"}), folder.path(""));
   check_success(run);
-  CHECK_THAT(run.errors, EndsWith("(time limit reached)\n"));
+  CHECK_THAT(run.errors, Contains("(time limit reached)\ncausticl: error "));
   const auto stats = nlohmann::json::parse(bytes_of(folder.path("stats.json")));
   CHECK(stats.at("stop") == "time");
   CHECK(stats.at("passes") >= 1);
   // Loosely: the machine may have other work to do, but all the passes would take a day.
   CHECK(stats.at("seconds") < 15);
+}
+
+TEST_CASE("--error stops when the estimate is small enough, at the same pass every time") {
+  const TemporaryFolder folder;
+  const auto stats_of = [&](const Words& more) {
+    const Finished run = run_causticl(small_render(more + Words{"-o", "a.pfm", "--stats-json", "stats.json"}),
+                                      folder.path(""));
+    check_success(run);
+    CHECK_THAT(run.errors, Contains("(error reached)\n"));
+    CHECK_THAT(run.errors, Contains("error ") && Contains(", half of it in "));
+    return nlohmann::json::parse(bytes_of(folder.path("stats.json")));
+  };
+  const auto first = stats_of({"--error", "30%"}), second = stats_of({"--error", "0.3", "-o", "b.exr"});
+  CHECK(first["error"] <= 0.3);
+  CHECK(first["stop"] == "error");
+  // More passes than the scene's own, if that is what it takes.
+  CHECK(first["passes"] >= 8);
+  CHECK(first["passes"] == second["passes"]);
+  CHECK(first["error"] == second["error"]);
+  // More confidence is a larger error, so more passes.
+  CHECK(stats_of({"--error", "30%", "--confidence", "95%"})["passes"] > first["passes"]);
+  const auto paths = stats_of({"--error", "60%", "--integrator", "pt"});
+  CHECK(paths["error_bias"] == 0);
+  CHECK(paths["error"] == paths["error_noise"]);
+}
+
+TEST_CASE("other limits end a render whose error is not reached") {
+  const TemporaryFolder folder;
+  const Finished run = run_causticl(small_render({"--error", "0.01%", "--passes", "3"}), folder.path(""));
+  check_success(run);
+  CHECK_THAT(run.errors, Contains("pass 3/3, ") && Contains("(done)\n"));
 }
