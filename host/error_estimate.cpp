@@ -74,7 +74,7 @@ void ErrorTrend::add(std::uint64_t passes, double error) {
 
 double ErrorTrend::rate() const {
   if (history_.empty()) return expected_rate_;
-  // A line through the latest error, by least squares; the expected rate is one more point, half an octave
+  // A line through the latest error, by least squares; the expected rate is one more point, an octave
   // off.
   const auto [now, error] = history_.back();
   constexpr double octave = std::numbers::ln2;
