@@ -6,7 +6,7 @@
 
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
-  ulong near_red, near_green, near_blue;  // of those within sqrt(radius2 / 2)
+  ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2
   uint count;
 } Gathered;
 
@@ -21,7 +21,7 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
   global const uint *words = photon_words(sorted, stride);
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   float3 n = normal * (1.0f / 127.0f);
-  real half_radius2 = radius2 / 2;
+  real near_radius2 = radius2 / 4;
   while (begin < end) {
     // 2^16 steps of 16-bit flux are what the 32-bit lanes hold.
     uint stop = end - begin > (1u << 19) ? begin + (1u << 19) : end;
@@ -37,7 +37,7 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
       real8 distance2 = dx * dx + dy * dy + dz * dz;
       int8 inside =
           mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE) & (lane < (uint8)(stop - i));
-      uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= half_radius2));
+      uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, words + stride + i) & keep, b = vload8(0, words + 2 * stride + i) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
       red += r;
@@ -69,7 +69,7 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
   return span >= n ? n : span + 1;
 }
 
-// Sums over all photons within sqrt(radius2) of `point`, and over those of half the area around it: what the two say
+// Sums over all photons within sqrt(radius2) of `point`, and over those within half that radius: what the two say
 // differently of the density is a measure of how much the larger one blurs. Each bucket is visited once: a window of at most n
 // cubes along an axis of n buckets has no two cubes in one bucket.
 OUTLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,

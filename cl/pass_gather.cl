@@ -18,7 +18,7 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
 }
 
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
-// the film, with how much less half the area around each point says; equations (8) and (9) update its radius. With
+// the film, with how much less half the radius around each point says; equations (8) and (9) update its radius. With
 // params.radius2 > 0 that radius holds for all pixels.
 kernel void gather_photons(global const VisiblePoint *visible_points, global SppmPixel *pixels,
                            global FilmPixel *film, global const uint *starts, global const uint *sorted,
@@ -41,7 +41,7 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
     found = add_sat(found, sum.count);
   }
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
-  real3 blur = (reflected - 2 * reflected_near) * (density / params.visible_points);
+  real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
   if (found > 0) radiance += reflected * density;
   film_add(film + index, radiance / params.visible_points, luminance(blur.x, blur.y, blur.z), params.pass, counters);
   if (params.radius2 > 0) return;

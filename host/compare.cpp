@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "flip.hpp"
@@ -26,6 +27,8 @@ double mse_of(const Picture& a, const Picture& b) {
   return squares / static_cast<double>(a.rgb.size());
 }
 
+double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
 /// The colour map magma of matplotlib, by a polynomial fit of sixth degree for each channel.
 double magma(int channel, double x) {
   static constexpr double coefficients[3][7] = {
@@ -47,6 +50,21 @@ double relative_mse(const Picture& a, const Picture& b) {
   return mse_of(a, b) / (mean * mean);
 }
 
+double relative_error_quantile(const Picture& a, const Picture& b, double q) {
+  const std::size_t pixels = b.rgb.size() / 3;
+  double mean = 0;
+  for (std::size_t i = 0; i < pixels; ++i) mean += luminance(&b.rgb[3 * i]) / static_cast<double>(pixels);
+  std::vector<double> errors(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double expected = luminance(&b.rgb[3 * i]);
+    const double error = std::fabs(luminance(&a.rgb[3 * i]) - expected) / std::max(expected, 0.1 * mean);
+    errors[i] = error >= 0 ? error : std::numeric_limits<double>::infinity();
+  }
+  const auto rank = std::min(static_cast<std::size_t>(q * static_cast<double>(pixels)), pixels - 1);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
+  return errors[rank];
+}
+
 Comparison compare_pictures(const Picture& picture, const Picture& reference) {
   Comparison result;
   result.mean = mean_of(picture);
@@ -55,6 +73,8 @@ Comparison compare_pictures(const Picture& picture, const Picture& reference) {
   result.rmse = std::sqrt(result.mse);
   result.relative_mse = result.mse / (result.reference_mean * result.reference_mean);
   result.relative_rmse = std::sqrt(result.relative_mse);
+  result.error_90 = relative_error_quantile(picture, reference, 0.9);
+  result.calibration = calibration_of(picture, reference, 0.9);
   result.flip_pixels = flip_map(picture, reference);
   for (const float value : result.flip_pixels) result.flip += value;
   result.flip /= static_cast<double>(result.flip_pixels.size());
@@ -81,17 +101,33 @@ std::string comparison_table(const Comparison& c) {
   std::snprintf(
       text, sizeof text,
       "  %-20s %.6g\n  %-20s %.6g (%+.3f%%)\n  %-20s %.4g\n  %-20s %.4g\n  %-20s %.4g\n  %-20s %.4g\n"
-      "  %-20s %.4f\n",
+      "  %-20s %.4g\n  %-20s %.4f\n",
       "reference mean", c.reference_mean, "mean", c.mean, 100 * (c.mean / c.reference_mean - 1), "MSE", c.mse,
-      "RMSE", c.rmse, "relative MSE", c.relative_mse, "relative RMSE", c.relative_rmse, "mean FLIP", c.flip);
-  return text;
+      "RMSE", c.rmse, "relative MSE", c.relative_mse, "relative RMSE", c.relative_rmse,
+      "90% of pixels within", c.error_90, "mean FLIP", c.flip);
+  std::string table = text;
+  if (c.calibration) {
+    std::snprintf(text, sizeof text,
+                  "  %-20s %.4g by its own estimate; %.1f%% of the pixels are within their 90%% bounds\n", "",
+                  c.calibration->estimated, 100 * c.calibration->covered);
+    table += text;
+  }
+  return table;
 }
 
 std::string comparison_json(const Comparison& c) {
-  const nlohmann::ordered_json object = {
-      {"mean", c.mean}, {"reference_mean", c.reference_mean}, {"mse", c.mse},
-      {"rmse", c.rmse}, {"relative_mse", c.relative_mse},     {"relative_rmse", c.relative_rmse},
-      {"flip", c.flip}};
+  nlohmann::ordered_json object = {{"mean", c.mean},
+                                   {"reference_mean", c.reference_mean},
+                                   {"mse", c.mse},
+                                   {"rmse", c.rmse},
+                                   {"relative_mse", c.relative_mse},
+                                   {"relative_rmse", c.relative_rmse},
+                                   {"error_90", c.error_90},
+                                   {"flip", c.flip}};
+  if (c.calibration) {
+    object["estimated_error_90"] = c.calibration->estimated;
+    object["covered_90"] = c.calibration->covered;
+  }
   return object.dump(2) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration.hpp"
 #include "image.hpp"
 
 namespace causticl {
@@ -13,12 +14,19 @@ struct Comparison {
   double mse = 0, rmse = 0;             // of the linear values
   double relative_mse = 0;              // mse over the square of the reference's mean
   double relative_rmse = 0;
-  double flip = 0;                 // mean FLIP
-  std::vector<float> flip_pixels;  // of each pixel
+  double error_90 = 0;                     // relative_error_quantile at 0.9
+  std::optional<Calibration> calibration;  // at 0.9
+  double flip = 0;                         // mean FLIP
+  std::vector<float> flip_pixels;          // of each pixel
 };
 
 /// mean((a - b)^2) over all channels, over the square of b's mean.
 double relative_mse(const Picture& a, const Picture& b);
+
+/// The relative error that the share `q` of the pixels stays under: the quantile over pixels of
+/// |a - b| / max(b, 0.1 mean(b)), all of luminance. The floor keeps black pixels from counting as infinitely
+/// wrong. Pixels that are not finite count as such.
+double relative_error_quantile(const Picture& a, const Picture& b, double q);
 
 /// Compares two pictures of one size. Pixels that are not finite in either count as infinitely wrong.
 Comparison compare_pictures(const Picture& picture, const Picture& reference);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace causticl {
 namespace {
@@ -30,32 +31,48 @@ std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels
 
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
+/// The probability of being off by less than `bound`.
+double probability_below(const RelativeError& error, double bound) {
+  const auto [noise, bias] = error;
+  if (!(noise > 0)) return bias <= bound ? 1 : 0;
+  return normal_distribution((bound - bias) / noise) - normal_distribution((-bound - bias) / noise);
+}
+
 /// The expected share of pixels that are off by less than `bound`.
 double share_below(const std::vector<RelativeError>& errors, double bound) {
   double share = 0;
-  for (const auto& [noise, bias] : errors)
-    share += noise > 0
-                 ? normal_distribution((bound - bias) / noise) - normal_distribution((-bound - bias) / noise)
-                 : (bias <= bound ? 1 : 0);
+  for (const auto& error : errors) share += probability_below(error, bound);
   return share / static_cast<double>(errors.size());
 }
 
-/// The bound that `confidence` of the pixels stay below, to 0.1%.
-double bound_of(const std::vector<RelativeError>& errors, double confidence) {
+/// Where a function that grows from 0 to 1 reaches `wanted`, to 0.1%; 0 where it starts above.
+template <typename Function>
+double inverse(const Function& function, double wanted) {
   constexpr double smallest = 1e-12, largest = 1e12;
-  if (share_below(errors, smallest) >= confidence) return 0;
-  // Most pictures' errors lie about here: two steps of doubling find the bracket.
+  if (function(smallest) >= wanted) return 0;
+  // Most errors lie about here: few steps find the bracket.
   double low = 0.02, high = 0.04;
-  while (low > smallest && share_below(errors, low) >= confidence) high = std::exchange(low, low / 4);
-  while (high < largest && share_below(errors, high) < confidence) low = std::exchange(high, high * 4);
+  while (low > smallest && function(low) >= wanted) high = std::exchange(low, low / 4);
+  while (high < largest && function(high) < wanted) low = std::exchange(high, high * 4);
   while (high > low * 1.001) {
     const double middle = std::sqrt(low * high);
-    (share_below(errors, middle) < confidence ? low : high) = middle;
+    (function(middle) < wanted ? low : high) = middle;
   }
   return high;
 }
 
+double bound_of(const std::vector<RelativeError>& errors, double confidence) {
+  return inverse([&](double bound) { return share_below(errors, bound); }, confidence);
+}
+
 }  // namespace
+
+double error_bound(const PixelError& pixel, double confidence) {
+  const double size = std::max<double>(pixel.noise, pixel.bias);
+  if (!(size > 0)) return 0;
+  const RelativeError error{pixel.noise / size, pixel.bias / size};
+  return size * inverse([&](double bound) { return probability_below(error, bound); }, confidence);
+}
 
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence) {
   const auto errors = relative_errors(pixels);

@@ -19,6 +19,10 @@ struct PictureError {
   double bias = 0;   // as if there were no noise
 };
 
+/// What a pixel's error is below with probability `confidence`, in luminance, if its noise is distributed
+/// normally about its bias.
+double error_bound(const PixelError& pixel, double confidence);
+
 /// The error of the picture from those of its pixels, or of a sample of them: each is off by its bias and by
 /// normally distributed noise. None for a black picture.
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence);

@@ -45,7 +45,7 @@ bool holds_channels(const std::string& file);
 /// PFM. Writes to a temporary name in the same folder, then renames. Throws UserError.
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata);
 
-/// Reads .pfm or .exr back as linear RGB. Throws UserError.
+/// Reads .pfm or .exr back as linear RGB, an EXR file with its channels error.*. Throws UserError.
 Picture read_picture(const std::string& file);
 
 }  // namespace causticl

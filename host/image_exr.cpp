@@ -109,6 +109,28 @@ void decode_exr(const std::string& bytes, int& width, int& height, std::vector<f
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgba[i + 1] = rgba[i + 2] = rgba[i];
 }
 
+std::vector<Channel> decode_exr_channels(const std::string& bytes, const std::string& prefix) {
+  MemoryIn stream(bytes);
+  Imf::InputFile file(stream);
+  const Imath::Box2i window = file.header().dataWindow();
+  check_image_size(1ll + window.max.x - window.min.x, 1ll + window.max.y - window.min.y);
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+  const auto height = static_cast<std::size_t>(window.max.y - window.min.y) + 1;
+  std::vector<Channel> channels;
+  const Imf::ChannelList& list = file.header().channels();
+  for (auto i = list.begin(); i != list.end(); ++i)
+    if (std::string(i.name()).starts_with(prefix) && i.channel().xSampling == 1 && i.channel().ySampling == 1)
+      channels.push_back({i.name(), std::vector<float>(width * height)});
+  if (channels.empty()) return channels;
+  Imf::FrameBuffer frame;
+  for (auto& channel : channels)
+    frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), window, sizeof(float),
+                                                sizeof(float) * width));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return channels;
+}
+
 std::string encode_exr(const Picture& picture, const Metadata& metadata) {
   Imf::Header header(picture.width, picture.height);
   header.compression() = Imf::ZIP_COMPRESSION;

@@ -18,6 +18,9 @@ bool is_exr(const std::string& bytes);
 /// alpha is 1. Throws std::exception.
 void decode_exr(const std::string& bytes, int& width, int& height, std::vector<float>& rgba);
 
+/// The channels of an EXR file whose names begin with `prefix`, top row first. Throws std::exception.
+std::vector<Channel> decode_exr_channels(const std::string& bytes, const std::string& prefix);
+
 /// R, G, B and all other channels as 32-bit floats, ZIP compressed, with one string attribute for each entry
 /// of `metadata`.
 std::string encode_exr(const Picture& picture, const Metadata& metadata);

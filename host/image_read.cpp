@@ -198,6 +198,7 @@ Picture read_picture(const std::string& file) {
     decode_exr(bytes, picture.width, picture.height, rgba);
     picture.rgb.resize(rgba.size() / 4 * 3);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = rgba[i / 3 * 4 + i % 3];
+    picture.channels = decode_exr_channels(bytes, "error.");
     return picture;
   } catch (const std::bad_alloc&) {
     fail(file, "it does not fit into memory");

@@ -188,6 +188,8 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     }
   }
 
+  if (watch.last() && watch.last()->error > 0)
+    statistics.passes_to_half_error = watch.passes_until(watch.last()->error / 2, statistics.passes);
   const double loop_seconds = std::max(seconds_since(loop_start), 1e-9);
   statistics.rays = totals.rays;
   statistics.stored_photons = totals.photons_stored_last_pass;

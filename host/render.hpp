@@ -56,6 +56,7 @@ struct Statistics {
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;  // estimated; none after a single pass and of a black picture
+  double passes_to_half_error = 0;    // further ones, estimated; 0 without an error
   double confidence = 0.9;            // share of pixels that `error` holds for
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;

@@ -48,10 +48,11 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   device_.launch(start_pixels_, film_.pixels());
 }
 
-/// The radius within which the median visible point of a coarse picture finds a few dozen photons of one
-/// pass: small enough to resolve a caustic, large enough to be smooth after a few passes.
+/// The radius within which the median visible point of a coarse picture finds a dozen photons of one pass. In
+/// the Cornell box the error of 90% of the pixels is then smallest after 32 to 128 passes; with forty it
+/// takes twice as many passes to the same error, since corners stay dark for long.
 double Sppm::choose_first_radius(double extent) {
-  constexpr double wanted = 40;
+  constexpr double wanted = 12;
   constexpr uint longest_side = 64;
   Params params = params_;
   const uint longer = std::max(params.width, params.height);

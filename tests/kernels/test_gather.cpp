@@ -247,7 +247,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
         for (int c = 0; c < 3; ++c) {
           const double density = v.weight[c] * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
           radiance[c] += v.radiance[c] + density * double(flux[c]);
-          blur += luminance[c] * density * (double(flux[c]) - 2 * double(near[c])) / samples;
+          blur += luminance[c] * density * (double(flux[c]) - 4 * double(near[c])) / samples;
         }
       }
       largest_blur = std::max(largest_blur, std::fabs(blur));

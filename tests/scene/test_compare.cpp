@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "flip.hpp"
 #include "temporary_folder.hpp"
@@ -86,4 +87,49 @@ TEST_CASE("the map shows what is alike as black and what differs as bright") {
   const Picture far = error_map(compare_pictures(uniform(0, 1, 0), uniform(0, 0, 1)), 40, 30);
   CHECK(same.rgb[0] + same.rgb[1] + same.rgb[2] < 0.01f);
   CHECK(far.rgb[0] + far.rgb[1] + far.rgb[2] > 2);
+}
+
+TEST_CASE("a picture that knows its error is held to it") {
+  // Every pixel is off by noise as stated; the reference has noise of its own, which it states or not.
+  std::mt19937 engine(7);
+  std::normal_distribution<float> normal;
+  const auto noisy = [&](float sigma) {
+    Picture picture = picture_of(100, 80, waves);
+    Channel noise{"error.noise", {}}, bias{"error.bias", {}};
+    for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) {
+      const float difference = sigma * normal(engine);
+      for (int c = 0; c < 3; ++c) picture.rgb[3 * i + c] += difference;
+      noise.values.push_back(sigma);
+      bias.values.push_back(0);
+    }
+    picture.channels = {noise, bias};
+    return picture;
+  };
+  const Picture truth = picture_of(100, 80, waves), picture = noisy(0.05f);
+  CHECK(!compare_pictures(truth, picture).calibration);
+  Comparison comparison = compare_pictures(picture, truth);
+  REQUIRE(comparison.calibration);
+  CHECK(comparison.calibration->covered == Approx(0.9).margin(0.01));
+  CHECK(comparison.calibration->estimated == Approx(comparison.error_90).epsilon(0.05));
+  Picture reference = noisy(0.05f);
+  CHECK(compare_pictures(picture, reference).calibration->covered == Approx(0.9).margin(0.01));
+  reference.channels.clear();
+  CHECK(compare_pictures(picture, reference).calibration->covered < 0.8);
+  // Through a file and back.
+  const TemporaryFolder folder;
+  write_picture(folder.path("a.exr"), picture, {});
+  comparison = compare_pictures(read_rendered(folder.path("a.exr")), truth);
+  CHECK(comparison.calibration->covered == Approx(0.9).margin(0.01));
+  CHECK_THAT(comparison_table(comparison), Catch::Contains("by its own estimate; "));
+  CHECK_THAT(comparison_json(comparison), Catch::Contains("\"covered_90\": 0."));
+}
+
+TEST_CASE("a bias that is stated widens the bound to its side") {
+  Picture truth = uniform(1, 1, 1), picture = uniform(1.1, 1.1, 1.1);
+  const std::size_t pixels = picture.rgb.size() / 3;
+  picture.channels = {{"error.noise", std::vector<float>(pixels, 0)},
+                      {"error.bias", std::vector<float>(pixels, 0.11f)}};
+  CHECK(compare_pictures(picture, truth).calibration->covered == 1);
+  picture.channels[1].values.assign(pixels, 0.09f);
+  CHECK(compare_pictures(picture, truth).calibration->covered == 0);
 }

@@ -124,7 +124,7 @@ inline GatherSums gather_brute_force(const GatherPoint& p, const std::vector<Pho
     sums.green += photon.flux_rg >> 16;
     sums.blue += photon.flux_b;
     ++sums.count;
-    if (!(distance2 <= radius2 / 2)) continue;
+    if (!(distance2 <= radius2 / 4)) continue;
     sums.near_red += photon.flux_rg & 0xffffu;
     sums.near_green += photon.flux_rg >> 16;
     sums.near_blue += photon.flux_b;

@@ -1,0 +1,52 @@
+#include "calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error_estimate.hpp"
+
+namespace causticl {
+namespace {
+
+const std::vector<float>* find(const Picture& picture, const std::string& name) {
+  const auto found = std::find_if(picture.channels.begin(), picture.channels.end(),
+                                  [&](const Channel& channel) { return channel.name == name; });
+  return found == picture.channels.end() ? nullptr : &found->values;
+}
+
+float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
+
+std::vector<PixelError> errors_of(const Picture& picture) {
+  const auto* noise = find(picture, "error.noise");
+  const auto* bias = find(picture, "error.bias");
+  std::vector<PixelError> errors;
+  if (!noise || !bias) return errors;
+  for (std::size_t i = 0; i < noise->size(); ++i)
+    errors.push_back({luminance(&picture.rgb[3 * i]), (*noise)[i], (*bias)[i]});
+  return errors;
+}
+
+}  // namespace
+
+std::optional<Calibration> calibration_of(const Picture& picture, const Picture& reference,
+                                          double confidence) {
+  auto errors = errors_of(picture);
+  const auto estimate = picture_error(errors, confidence);
+  if (!estimate) return {};
+  const auto reference_errors = errors_of(reference);
+  double covered = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    PixelError error = errors[i];
+    if (!reference_errors.empty()) {
+      error.noise = std::hypot(error.noise, reference_errors[i].noise);
+      // Both are blurred to the same side: the reference less.
+      error.bias = std::fabs(error.bias - reference_errors[i].bias);
+    }
+    const double difference =
+        std::fabs(static_cast<double>(error.luminance) - luminance(&reference.rgb[3 * i]));
+    covered += difference <= error_bound(error, confidence);
+  }
+  return Calibration{estimate->error, covered / static_cast<double>(errors.size())};
+}
+
+}  // namespace causticl

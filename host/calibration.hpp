@@ -1,0 +1,20 @@
+// How well a picture's estimate of its own error holds against a reference.
+#pragma once
+
+#include <optional>
+
+#include "image.hpp"
+
+namespace causticl {
+
+struct Calibration {
+  double estimated = 0;  // the picture's error by its channels error.noise and error.bias, at `confidence`
+  double covered = 0;    // share of the pixels that are off by less than their own bound at `confidence`
+};
+
+/// None for a picture without those channels. Where the reference has them as well, its errors widen the
+/// bounds: what differs is the error of both.
+std::optional<Calibration> calibration_of(const Picture& picture, const Picture& reference,
+                                          double confidence);
+
+}  // namespace causticl
