@@ -70,6 +70,14 @@ static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *s
   return reflectance * light.weight * (cosine * weight);
 }
 
+// The radiance of the environment that a ray into the open finds, as it counts beside light sampling; bsdf_pdf is the
+// density of the ray's direction, 0 where no light sample could find what it does.
+INLINE real3 escaped_radiance(const Scene *scene, real3 direction, real bsdf_pdf) {
+  real pdf;
+  real3 radiance = environment_radiance(scene, direction, &pdf);
+  return bsdf_pdf > 0 ? radiance * power_weight(bsdf_pdf, pdf) : radiance;
+}
+
 // What radiance that a BSDF sample found at an emissive surface counts for beside light sampling; bsdf_pdf is the
 // density of the ray's direction.
 INLINE real emission_weight(const Scene *scene, Ray ray, Hit hit, const Surface *surface,

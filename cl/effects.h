@@ -19,7 +19,10 @@
 #define EFFECT_CONDUCTOR (1u << 11)
 #define EFFECT_PLASTIC (1u << 12)
 
-#define EFFECT_ALL ((1u << 13) - 1u)
+#define EFFECT_ENVIRONMENT (1u << 13)   // light from beyond the scene
+#define EFFECT_DELTA_LIGHTS (1u << 14)  // point, spot and directional lights
+
+#define EFFECT_ALL ((1u << 15) - 1u)
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)
 #endif

@@ -1,20 +1,26 @@
 // Emitters: choosing one, drawing a point on it, light arriving from it, photons leaving it.
+#include "delta_light.cl"
+#include "environment.cl"
 #include "rng.cl"
-#include "scene.cl"
 
 // A light's contribution to a point: radiance / pdf, not yet multiplied by BSDF, cosine and visibility.
 typedef struct {
   real3 direction;  // unit, from the lit point
   real distance;
   real3 weight;     // radiance / pdf; zero where nothing arrives
-  real pdf;         // per solid angle, the choice of emitter included
+  real pdf;         // per solid angle, the choice of emitter included; infinite for delta lights
   real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself
 } LightSample;
 
-// The emitter that owns the number made of all 24 bits of u and the low 23 bits of v: the 24 bits of one random
-// number are too few to choose among a million emitters. The highest bit of v is left to the caller.
+// The number made of all 24 bits of u and the low 23 bits of v: the 24 bits of one random number are too few to choose
+// among a million emitters. The highest bit of v is left to the caller.
+INLINE ulong emitter_number(real u, real v) {
+  return (ulong)(uint)(u * 16777216) << 23 | ((uint)(v * 16777216) & 0x7fffffu);
+}
+
+// The emitter that owns the number of u and v.
 INLINE uint emitter_choose(const Scene *scene, real u, real v) {
-  ulong number = (ulong)(uint)(u * 16777216) << 23 | ((uint)(v * 16777216) & 0x7fffffu);
+  ulong number = emitter_number(u, v);
   uint low = 0, high = scene->emitter_count - 1;
   while (low < high) {
     uint middle = (low + high) / 2;
@@ -84,11 +90,40 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
   return point;
 }
 
+// The environment is the last of the emitters. Which of the numbers that it owns was drawn with u and v.
+INLINE ulong environment_number(const Scene *scene, real u, real v) {
+  ulong number = emitter_number(u, v);
+  return scene->emitter_count > 1 ? number - scene->emitters[scene->emitter_count - 2].cdf : number;
+}
+
+// light_sample for the environment: a direction in proportion to its radiance.
+INLINE LightSample environment_light(const Scene *scene, global const Emitter *emitter, real4 random) {
+  LightSample sample = {(real3)(0, 0, 1), INFINITY, (real3)(0, 0, 0), 0, 0};
+  ulong number = environment_number(scene, random.x, random.w);
+  real2 position = environment_sample(scene, emitter, number, random.yz);
+  EnvironmentValue value = environment_lookup(scene, emitter, position);
+  real sine;
+  sample.direction = environment_direction(emitter, position, &sine);
+  sample.pdf = emitter->probability * environment_pdf(value.density, sine);
+  if (sample.pdf > 0) sample.weight = value.radiance / sample.pdf;
+  return sample;
+}
+
+// light_sample for a point, spot or directional light.
+INLINE LightSample delta_light(global const Emitter *emitter, real3 position) {
+  LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), INFINITY, 0};
+  sample.weight = delta_light_arrival(emitter, position, &sample.direction, &sample.distance) / emitter->probability;
+  return sample;
+}
+
 // Light that may reach `position` from one emitter, chosen by power. A sphere seen from outside is sampled in
 // its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
 static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
   LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), 0, 0};
   global const Emitter *emitter = scene->emitters + emitter_choose(scene, random.x, random.w);
+  if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
+    return environment_light(scene, emitter, random);
+  if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) return delta_light(emitter, position);
   real3 radiance = convert_real3(emitter->radiance.xyz);
   if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
     real3 to_centre = convert_real3(emitter->a.xyz) - position;
@@ -159,13 +194,36 @@ static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit
   return cosine > 0 ? area_pdf * hit.t * hit.t / cosine : 0;
 }
 
+// A photon of the environment: direction in proportion to radiance, origin on the disc before the scene.
+INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, real4 choice, real2 place,
+                            real3 *flux) {
+  ulong number = environment_number(scene, choice.x, choice.w);
+  real2 position = environment_sample(scene, emitter, number, choice.yz);
+  EnvironmentValue value = environment_lookup(scene, emitter, position);
+  real sine;
+  Ray ray;
+  ray.direction = -environment_direction(emitter, position, &sine);
+  ray.origin = distant_origin(emitter, ray.direction, place);
+  real pdf = environment_pdf(value.density, sine);
+  *flux = pdf > 0 ? value.radiance / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
+  return ray;
+}
+
 // Starts a photon: emitter by power, point by area, direction by cosine. Returns its ray; *flux is relative to
-// Params.photon_flux, its largest channel 1 (a bezier's varies about 1, since its points are not exactly
-// uniform).
+// Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point and directional lights;
+// about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
 static Ray photon_emit(const Scene *scene, RandomStream stream, real3 *flux) {
   real4 choice = random4(stream, DIM_EMITTER), direction = random4(stream, DIM_EMISSION);
   global const Emitter *emitter = scene->emitters + emitter_choose(scene, choice.x, choice.w);
   real3 normal, radiance = convert_real3(emitter->radiance.xyz);
+  if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
+    return environment_emit(scene, emitter, choice, direction.xy, flux);
+  if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
+    real share;
+    Ray leaving = delta_light_ray(emitter, direction.xy, &share);
+    *flux = radiance * (share / max_component(radiance));
+    return leaving;
+  }
   real error, area_pdf;
   real3 point = emitter_point(scene, emitter, choice.yz, &normal, &error, &area_pdf);
   if (emitter->two_sided && choice.w < (real)0.5f) normal = -normal;

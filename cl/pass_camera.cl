@@ -6,7 +6,8 @@
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
-// lobes reflect is found by shadow rays too, weighted against the rays that meet it.
+// lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
+// meets, in either case.
 OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
                          volatile global Counters *counters) {
   uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
@@ -27,7 +28,10 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
     ++rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
-    if (!met) break;
+    if (!met) {
+      if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
+      break;
+    }
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
@@ -56,7 +60,8 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
       break;
     }
 
-    bool weigh_lights = shadow_rays && bsdf_is_rough(&bsdf);
+    bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
+    bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf);
     if (weigh_lights) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance += direct_light_rough(scene, &bsdf, &surface, ray.direction, n, throughput,

@@ -13,7 +13,10 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
     ++*rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
-    if (!met) break;
+    if (!met) {
+      if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
+      break;
+    }
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;

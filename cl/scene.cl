@@ -8,6 +8,7 @@ typedef struct {
   global const Texture *textures;
   global const half *texels;
   global const Emitter *emitters;
+  global const EnvironmentTexel *environment;
   uint emitter_count;
   float emitter_density;
 } Scene;
@@ -15,7 +16,9 @@ typedef struct {
 // Every kernel that traces takes these and begins with SCENE_INIT(params).
 #define SCENE_PARAMETERS                                                                              \
   GEOMETRY_PARAMETERS, global const Material *materials, global const Texture *textures,              \
-      global const half *texels, global const Emitter *emitters
+      global const half *texels, global const Emitter *emitters,                                      \
+      global const EnvironmentTexel *environment
 #define SCENE_INIT(params)                                                                            \
   GEOMETRY_INIT((params).plane_count)                                                                 \
-  Scene scene = {geometry, materials, textures, texels, emitters, (params).emitter_count, (params).emitter_density}
+  Scene scene = {geometry, materials, textures, texels, emitters, environment,                        \
+                 (params).emitter_count, (params).emitter_density}

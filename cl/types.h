@@ -152,6 +152,10 @@ CHECK_SIZE(TriangleAttributes, 40);
 #define EMITTER_SPHERE 1u
 #define EMITTER_DISK 2u
 #define EMITTER_BEZIER 3u
+#define EMITTER_POINT 4u        // the first that is no surface
+#define EMITTER_SPOT 5u
+#define EMITTER_DIRECTIONAL 6u
+#define EMITTER_ENVIRONMENT 7u  // the last emitter of a scene that has one
 
 // Steps in t of the table of cumulative area by which points on a revolved curve are drawn.
 #define EMITTER_AREA_STEPS 64u
@@ -160,21 +164,33 @@ CHECK_SIZE(TriangleAttributes, 40);
 // channel: a running sum in single precision would give small ones a probability that is not what they draw.
 #define EMITTER_CHOICE_BITS 47
 
-// One light-emitting primitive.
+// One light: radiance.w times the largest channel of `radiance` is its power over pi (of one side of a surface, where
+// radiance.w is the area).
 typedef struct {
-  float4 a, b, c;     // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes
-  float4 radiance;    // w: area
+  // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes; point: place; spot: place,
+  // axis, (1 - cosine of the half angle of the cone, of its even part); directional: sphere around the scene, direction;
+  // environment: sphere around the scene, (by how much of a turn the map is turned)
+  float4 a, b, c;
+  float4 radiance;    // point, spot: intensity; directional: irradiance; environment: integral over all directions
   ulong cdf;          // how many numbers this emitter and all before it own; the last one's are all
   float probability;  // the share of the numbers that it owns
   uint type;          // EMITTER_TRIANGLE ...
   uint two_sided;
-  uint shape;         // EMITTER_BEZIER: index into shapes
-  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer
+  uint shape;         // EMITTER_BEZIER: index into shapes; EMITTER_ENVIRONMENT: width of the map
+  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer; EMITTER_ENVIRONMENT: height
   uint unused;
 } Emitter;
 CHECK_SIZE(Emitter, 96);
 
-// Every emitter's points are drawn with the same density per area and unit of radiance:
+// A texel of the environment's map of latitude and longitude, rows from the bottom (straight down) to the top.
+typedef struct {
+  float radiance[3];
+  float density;      // the share of the environment's numbers that it owns, times the number of texels
+  ulong cdf;          // how many of these numbers this texel and all before it own
+} EnvironmentTexel;
+CHECK_SIZE(EnvironmentTexel, 24);
+
+// The points of every emitting surface are drawn with the same density per area and unit of radiance:
 // largest channel of radiance * emitter_density (times two where both sides emit).
 typedef struct {
   Camera camera;
@@ -186,14 +202,15 @@ typedef struct {
   uint max_depth;            // longest path in scattering surface hits
   uint plane_count;          // infinite planes, the first of the shapes
   uint emitter_count;
-  float emitter_density;     // 1 / sum of area * sides * largest channel of radiance; 0 without emitters
+  float emitter_density;     // pi / power of the largest channels of all emitters; 0 without emitters
   float photon_flux;         // flux of the largest channel of one emitted photon
   uint photon_count;         // emitted in a pass
   uint photon_capacity;      // stored at most
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
-  uint unused[3];
+  uint delta_lights;         // how many of the emitters are point, spot and directional lights
+  uint unused[2];
 } Params;
 CHECK_SIZE(Params, 176);
 

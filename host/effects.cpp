@@ -55,6 +55,16 @@ std::string by_kind(const Scene& scene, Kind kind, const char* what) {
   return by_material(scene, what, [&](const MaterialSpec& material) { return material.kind == kind; });
 }
 
+std::string environment_reason(const Scene& scene) {
+  return scene.environment && is_lit(*scene.environment) ? "environment " + scene.environment->pointer : "";
+}
+
+std::string delta_lights_reason(const Scene& scene) {
+  const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                  [](const DeltaLight& light) { return is_lit(light); });
+  return found == scene.lights.end() ? "" : "light " + found->pointer;
+}
+
 /// Shadow rays want something to go to: infinite planes, which are never sampled, do not count.
 std::string shadow_rays_reason(const Scene& scene) {
   if (scene.renderer.direct_light != DirectLight::shadow_rays) return "";
@@ -62,9 +72,13 @@ std::string shadow_rays_reason(const Scene& scene) {
     const auto& material = scene.materials[static_cast<std::size_t>(object.material)];
     return object.shape != Shape::plane && max_component(material.emission) > 0;
   };
-  return first_object(scene, wanted, [](const Object& object) {
-    return "/renderer/direct_light with the emitter " + object.pointer;
-  });
+  const std::string key = "/renderer/direct_light with the ";
+  const std::string surface =
+      first_object(scene, wanted, [&](const Object& object) { return key + "emitter " + object.pointer; });
+  if (!surface.empty()) return surface;
+  const std::string delta_light = delta_lights_reason(scene), environment = environment_reason(scene);
+  if (!delta_light.empty()) return key + delta_light;
+  return environment.empty() ? "" : key + environment;
 }
 
 }  // namespace
@@ -88,6 +102,8 @@ Effects find_effects(const Scene& scene) {
        by_material(scene, "roughness", [](const MaterialSpec& material) { return material.roughness > 0; })},
       {EFFECT_CONDUCTOR, "conductor", "conductors", by_kind(scene, Kind::conductor, "conductor")},
       {EFFECT_PLASTIC, "plastic", "plastic", by_kind(scene, Kind::plastic, "plastic")},
+      {EFFECT_ENVIRONMENT, "environment", "light from beyond the scene", environment_reason(scene)},
+      {EFFECT_DELTA_LIGHTS, "delta_lights", "point, spot and directional lights", delta_lights_reason(scene)},
   };
 }
 

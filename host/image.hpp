@@ -14,7 +14,7 @@ struct Image {
   std::vector<float> rgba;
 };
 
-/// Reads PNG, JPEG, BMP, TGA, HDR (stb_image) or EXR. `srgb` decodes 8-bit values by the sRGB curve;
+/// Reads PNG, JPEG, BMP, TGA, HDR (stb_image), PFM or EXR. `srgb` decodes 8-bit values by the sRGB curve;
 /// otherwise they are value/255. Throws UserError naming the file and the fault.
 Image read_image(const std::string& file, bool srgb);
 

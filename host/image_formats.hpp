@@ -25,6 +25,9 @@ std::vector<Channel> decode_exr_channels(const std::string& bytes, const std::st
 /// of `metadata`.
 std::string encode_exr(const Picture& picture, const Metadata& metadata);
 
+/// Whether the bytes begin as a PFM file does.
+bool is_pfm(const std::string& bytes);
+
 /// PFM, colour (PF) or grey (Pf), of either byte order. Throws std::runtime_error.
 Picture decode_pfm(const std::string& bytes);
 

@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -18,6 +19,11 @@ float swapped(float value) {
 }
 
 }  // namespace
+
+bool is_pfm(const std::string& bytes) {
+  return bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f') &&
+         std::isspace(static_cast<unsigned char>(bytes[2]));
+}
 
 Picture decode_pfm(const std::string& bytes) {
   // The header: PF or Pf, width, height, scale; one blank; then the rows. A negative scale says

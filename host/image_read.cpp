@@ -107,7 +107,7 @@ float srgb_to_linear(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR or EXR";
+constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR, PFM or EXR";
 
 template <typename T>
 using StbLoader = T* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
@@ -157,6 +157,15 @@ void decode_stb(const std::string& bytes, bool srgb, Image& image) {
     decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, srgb, image);
 }
 
+/// Four floats a texel, top row first.
+void decode_pfm_texels(const std::string& bytes, Image& image) {
+  const Picture picture = decode_pfm(bytes);
+  image.width = picture.width;
+  image.height = picture.height;
+  image.rgba.assign(picture.rgb.size() / 3 * 4, 1.0f);
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.rgba[i / 3 * 4 + i % 3] = picture.rgb[i];
+}
+
 }  // namespace
 
 void check_image_size(long long width, long long height) {
@@ -174,6 +183,8 @@ Image read_image(const std::string& file, bool srgb) {
   try {
     if (is_exr(bytes))
       decode_exr(bytes, image.width, image.height, image.rgba);
+    else if (is_pfm(bytes))
+      decode_pfm_texels(bytes, image);
     else
       decode_stb(bytes, srgb, image);
   } catch (const std::bad_alloc&) {

@@ -16,15 +16,16 @@ constexpr unsigned geometry_effects =
     EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
 constexpr unsigned shading_effects =
     EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH | EFFECT_CONDUCTOR | EFFECT_PLASTIC;
+constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 
 /// The effects that the kernels of each pass ask for with HAS().
 const std::map<std::string, unsigned> effects_read{
-    {"camera", geometry_effects | shading_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS},
-    {"photon", geometry_effects | shading_effects | EFFECT_SHADOW_RAYS},
+    {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS},
+    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS},
     {"grid", 0},
     {"gather", 0},
     {"film", 0},
-    {"path", geometry_effects | shading_effects | EFFECT_LENS},
+    {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS},
 };
 
 void dump(const std::string& folder, const std::string& pass, const std::string& source) {

@@ -18,6 +18,7 @@ inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, 
   params.max_depth = static_cast<uint>(scene.max_depth);
   params.plane_count = device_scene.plane_count;
   params.emitter_count = device_scene.emitter_count;
+  params.delta_lights = device_scene.delta_lights;
   params.emitter_density =
       device_scene.emitted_power > 0 ? static_cast<float>(1 / device_scene.emitted_power) : 0.0f;
   return params;

@@ -13,7 +13,7 @@ constexpr std::int64_t visible_point_limit = std::int64_t{1} << 31;
 
 const std::vector<std::string> scene_keys{"path",     "width",     "height",     "sample",     "max_depth",
                                           "Na",       "Ng",        "thread_num", "stack_size", "camera",
-                                          "renderer", "materials", "objects"};
+                                          "renderer", "materials", "objects",    "lights"};
 
 void read_size(const JsonReader& json, const SceneOptions& options, Scene& scene) {
   scene.width = static_cast<int>(json.integer("width", scene.width, 1, pixel_limit));
@@ -52,18 +52,31 @@ void read_integrator(const JsonReader& json, const SceneOptions& options, SceneL
 }
 
 void warn_without_light(const JsonReader& json, SceneLoader& loader) {
-  for (const Object& object : loader.scene.objects)
-    if (max_component(loader.scene.materials[static_cast<std::size_t>(object.material)].emission) > 0) return;
+  const Scene& scene = loader.scene;
+  for (const Object& object : scene.objects)
+    if (max_component(scene.materials[static_cast<std::size_t>(object.material)].emission) > 0) return;
+  for (const DeltaLight& light : scene.lights)
+    if (is_lit(light)) return;
+  if (scene.environment && is_lit(*scene.environment)) return;
   loader.notice(json, "no light: the image will be black");
 }
 
 }  // namespace
 
+bool is_lit(const DeltaLight& light) { return static_cast<float>(max_component(light.intensity)) > 0; }
+
+bool is_lit(const Environment& environment) {
+  const std::vector<float>& rgba = environment.map.rgba;
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (i % 4 != 3 && rgba[i] > 0) return true;
+  return false;
+}
+
 Scene load_scene(const std::string& file, const SceneOptions& options) {
   JsonDocument document = json_read(file);
   for (const auto& [key, value] : options.overrides) json_override(document, key, value);
   const JsonReader json(document);
-  json.check_keys(scene_keys, {"lights", "medium"});
+  json.check_keys(scene_keys, {"medium"});
 
   SceneLoader loader;
   Scene& scene = loader.scene;
@@ -84,6 +97,7 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   for (const JsonReader& object : json.at("objects").items(1, SIZE_MAX, "object"))
     read_object(object, loader);
   if (const auto renderer = json.find("renderer")) read_disc_light(*renderer, loader);
+  if (const auto lights = json.find("lights")) read_lights(*lights, loader);
   warn_without_light(json, loader);
   return std::move(scene);
 }

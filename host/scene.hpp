@@ -52,6 +52,26 @@ struct Object {
   bool is_disc_light = false;                 // comes from renderer.light_pos
 };
 
+/// A light that is no surface: no ray meets it by chance.
+struct DeltaLight {
+  enum class Kind { point, spot, directional };
+  Kind kind = Kind::point;
+  std::string pointer;  // JSON pointer, "/lights/0"
+  Vec3 position;        // point, spot
+  Vec3 direction;       // spot: the axis of its cone; directional: of travel; unit
+  Color intensity;      // directional: irradiance of a surface across it
+  double angle = 0;     // spot: of the whole cone, from side to side, in degrees
+  double blend = 0;     // spot: share of the half angle over which it falls off
+};
+
+/// Radiance from beyond the scene: a map of latitude and longitude, whose columns go around +y and whose
+/// middle lies towards -z.
+struct Environment {
+  std::string pointer;  // JSON pointer
+  Image map;            // texels finite, not negative; alpha is not used
+  double rotation = 0;  // about +y, in degrees
+};
+
 struct CameraSpec {
   // Both camera forms of the file are brought to the thin lens of cl/types.h by device_camera (upload).
   Vec3 origin;
@@ -89,12 +109,18 @@ struct Scene {
   RendererSpec renderer;
   CameraSpec camera;
   std::vector<Object> objects;
+  std::vector<DeltaLight> lights;
+  std::optional<Environment> environment;
   std::vector<MaterialSpec> materials;
   std::vector<TextureSpec> textures;
   std::vector<Image> images;
   std::vector<Mesh> meshes;
   std::vector<std::string> notices;  // what the user should know: ignored keys, fallbacks
 };
+
+/// Whether the light gives any light, in the floats that the kernels see.
+bool is_lit(const DeltaLight& light);
+bool is_lit(const Environment& environment);
 
 /// A `-D key=value` of the command line: `key` is a path of JSON keys joined by dots ("renderer.radius",
 /// "objects.3.radius"), `value` is JSON, or a string where it is not.

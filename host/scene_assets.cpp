@@ -59,6 +59,29 @@ int SceneLoader::image(const JsonReader& json, bool srgb) {
   });
 }
 
+Image SceneLoader::radiance_map(const JsonReader& json) {
+  Image image;
+  try {
+    image = read_image(resolve(json, scene.file), true);
+  } catch (const UserError& error) {
+    json.fail(error.what());
+  }
+  std::size_t bad = 0;
+  for (std::size_t texel = 0; texel < image.rgba.size(); texel += 4) {
+    const auto rgb = image.rgba.begin() + static_cast<std::ptrdiff_t>(texel);
+    const bool good = std::all_of(rgb, rgb + 3, [](float value) {
+      return value >= 0 && static_cast<double>(value) <= non_negative_number.high;
+    });
+    if (good) continue;
+    std::fill_n(rgb, 3, 0.0f);
+    ++bad;
+  }
+  if (bad > 0)
+    notice(json, std::to_string(bad) + (bad == 1 ? " texel that is" : " texels that are") +
+                     " not from 0 to 1e12, or no number, " + (bad == 1 ? "is" : "are") + " taken as black");
+  return image;
+}
+
 int SceneLoader::mesh(const JsonReader& json) {
   const std::string file = resolve(json, scene.file);
   return load_once(meshes, file, scene.meshes, json, [&] { return read_mesh(file); });

@@ -25,6 +25,8 @@ struct SceneLoader {
   /// Index of the image or mesh that `path` names; each file is read once.
   int image(const JsonReader& path, bool srgb);
   int mesh(const JsonReader& path);
+  /// The image that `path` names as radiance: linear, as bright as it is, and black where it is none.
+  Image radiance_map(const JsonReader& path);
 };
 
 /// A vector, {"x","y","z"} or [x,y,z].
@@ -52,5 +54,9 @@ int read_material_of(const JsonReader& json, SceneLoader& loader);
 
 /// One entry of `objects`, appended to the scene.
 void read_object(const JsonReader& json, SceneLoader& loader);
+
+/// The key `lights`. After the objects, since photons from beyond the scene cannot reach all of an infinite
+/// plane.
+void read_lights(const JsonReader& json, SceneLoader& loader);
 
 }  // namespace causticl

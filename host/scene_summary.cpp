@@ -205,6 +205,28 @@ void print_materials(std::ostream& text, const Scene& scene) {
   }
 }
 
+std::string delta_light_line(const DeltaLight& light) {
+  std::ostringstream text;
+  text << light.pointer << ": ";
+  if (light.kind == DeltaLight::Kind::directional) {
+    text << "directional light toward " << triple(light.direction) << ", irradiance ";
+  } else {
+    const bool spot = light.kind == DeltaLight::Kind::spot;
+    text << (spot ? "spot light of " : "point light");
+    if (spot) text << light.angle << " degrees";
+    text << " at " << triple(light.position) << ", intensity ";
+  }
+  text << triple(light.intensity);
+  return text.str();
+}
+
+std::string environment_line(const Environment& environment) {
+  std::string line = environment.pointer + ": environment ";
+  if (!environment.map.file.empty()) line += environment.map.file + ", ";
+  return line + std::to_string(environment.map.width) + " x " + std::to_string(environment.map.height) +
+         " texels";
+}
+
 void print_emitters(std::ostream& text, const Scene& scene) {
   std::vector<std::string> lines;
   for (const auto& object : scene.objects) {
@@ -213,6 +235,9 @@ void print_emitters(std::ostream& text, const Scene& scene) {
     lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : shape_name(object.shape)) +
                     ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
   }
+  for (const DeltaLight& light : scene.lights)
+    if (is_lit(light)) lines.push_back(delta_light_line(light));
+  if (scene.environment && is_lit(*scene.environment)) lines.push_back(environment_line(*scene.environment));
   text << "emitters    " << lines.size() << "\n";
   for (std::size_t i = 0; i < std::min(lines.size(), longest_list); ++i) text << "  " << lines[i] << "\n";
   if (lines.size() > longest_list) text << "  and " << lines.size() - longest_list << " more\n";

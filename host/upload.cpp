@@ -123,6 +123,7 @@ DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, T
   out.shapes = device.upload(world.shapes, "shapes");
   out.curves = device.upload(world.curves, "curves");
   out.emitters = device.upload(world.emitters, "emitters");
+  out.environment = device.upload(world.environment, "environment");
   std::vector<Material> materials;
   for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
   out.materials = device.upload(materials, "materials");
@@ -130,6 +131,11 @@ DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, T
 
   out.plane_count = world.plane_count;
   out.emitter_count = static_cast<uint>(world.emitters.size());
+  out.delta_lights = static_cast<uint>(
+      std::count_if(world.emitters.begin(), world.emitters.end(), [](const Emitter& emitter) {
+        return emitter.type == EMITTER_POINT || emitter.type == EMITTER_SPOT ||
+               emitter.type == EMITTER_DIRECTIONAL;
+      }));
   out.emitted_power = world.emitted_power;
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -157,8 +163,8 @@ Camera device_camera(const CameraSpec& spec) {
 
 cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene) {
   set_arguments(kernel, scene.nodes, scene.blocks, scene.attributes, scene.shapes, scene.curves,
-                scene.materials, scene.textures, scene.texels, scene.emitters);
-  return 9;
+                scene.materials, scene.textures, scene.texels, scene.emitters, scene.environment);
+  return 10;
 }
 
 }  // namespace causticl

@@ -11,9 +11,9 @@ namespace causticl {
 
 /// The buffers that every tracing kernel takes (SCENE_PARAMETERS of cl/scene.cl), and what the host keeps.
 struct DeviceScene {
-  cl::Buffer nodes, blocks, attributes, shapes, curves, materials, textures, texels, emitters;
-  uint emitter_count = 0, plane_count = 0;
-  double emitted_power = 0;  // sum over emitters of area * sides * largest channel of radiance
+  cl::Buffer nodes, blocks, attributes, shapes, curves, materials, textures, texels, emitters, environment;
+  uint emitter_count = 0, delta_lights = 0, plane_count = 0;
+  double emitted_power = 0;  // of the largest channels of all emitters, over pi
   Vec3 center;               // of all bounded objects
   double extent = 1;         // their largest half extent
   std::size_t triangles = 0, shapes_count = 0, skipped_triangles = 0;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "curve.hpp"
+#include "emitters.hpp"
 #include "error.hpp"
 
 namespace causticl {
@@ -47,7 +48,7 @@ class WorldBuilder {
           add_shape(object);
       }
     }
-    finish_emitters();
+    finish_emitters(scene_, world_);
     return std::move(world_);
   }
 
@@ -267,25 +268,6 @@ class WorldBuilder {
       }
     }
     return make_bounds(low, high);
-  }
-
-  /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
-  /// exactly. Emitters with less than 2^-48 of all power may own none.
-  void finish_emitters() {
-    const auto power = [](const Emitter& light) {
-      return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
-             static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
-    };
-    for (const auto& light : world_.emitters) world_.emitted_power += power(light);
-    constexpr double numbers = static_cast<double>(std::uint64_t{1} << EMITTER_CHOICE_BITS);
-    double sum = 0;
-    std::uint64_t before = 0;
-    for (auto& light : world_.emitters) {
-      sum += power(light);
-      light.cdf = static_cast<std::uint64_t>(std::llround(sum / world_.emitted_power * numbers));
-      light.probability = static_cast<float>(static_cast<double>(light.cdf - before) / numbers);
-      before = light.cdf;
-    }
   }
 };
 

@@ -16,11 +16,12 @@ struct World {
   uint plane_count = 0;
   std::vector<float> curves;  // data of the revolved curves
   std::vector<Emitter> emitters;
-  double emitted_power = 0;  // sum over emitters of area * sides * largest channel of radiance
+  std::vector<EnvironmentTexel> environment;
+  double emitted_power = 0;  // of the largest channels of all emitters, over pi
 };
 
 /// Meshes, rectangles and boxes become world-space triangles, everything else becomes shapes; emissive ones
-/// are listed as emitters with their probabilities.
+/// are listed as emitters, as are the lights that are no surfaces, with their probabilities.
 World build_world(const Scene& scene);
 
 }  // namespace causticl

@@ -88,7 +88,7 @@ inline constexpr BadScene bad_files[] = {
      "scene.json:5: /materials/white/color/path: huge_size.png: cannot be decoded: too large"},
     {"wrong magic.png", "[0.8, 0.8, 0.8]", "{\"type\": \"image\", \"path\": \"wrong_magic.png\"}",
      "scene.json:5: /materials/white/color/path: wrong_magic.png: cannot be decoded: expected PNG, JPEG, "
-     "BMP, TGA, HDR or EXR"},
+     "BMP, TGA, HDR, PFM or EXR"},
     {"zero size.png", "[0.8, 0.8, 0.8]", "{\"type\": \"image\", \"path\": \"zero_size.png\"}",
      "scene.json:5: /materials/white/color/path: zero_size.png: cannot be decoded: 0-pixel image"},
     {"blank.json", "FILE", "blank.json", "blank.json:1: expected a scene, got an empty file"},

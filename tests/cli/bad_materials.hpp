@@ -64,8 +64,6 @@ inline constexpr BadScene bad_materials[] = {
     {"infinite light in sppm", "\"type\": \"sphere\", \"radius\": 1", "\"type\": \"plane\"",
      "scene.json:8: /objects/1: an infinite light has no power to emit; use a rectangle or the integrator "
      "\"pt\""},
-    {"lights", "\"width\": 64", "\"lights\": []",
-     "scene.json:2: /lights: key \"lights\" is not supported yet; remove it"},
     {"medium", "\"width\": 64", "\"medium\": {}",
      "scene.json:2: /medium: key \"medium\" is not supported yet; remove it"},
     {"unknown texture type", "\"material\": \"white\"", "\"texture\": {\"type\": \"noise\"}",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bad_files.hpp"
+#include "bad_lights.hpp"
 #include "bad_materials.hpp"
 #include "bad_objects.hpp"
 #include "bad_settings.hpp"
@@ -18,6 +19,7 @@ inline std::vector<BadScene> all_bad_scenes() {
   add(bad_settings);
   add(bad_objects);
   add(bad_materials);
+  add(bad_lights);
   add(bad_files);
   return all;
 }

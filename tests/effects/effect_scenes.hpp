@@ -40,6 +40,9 @@ inline std::vector<EffectScene> effect_scenes() {
                              const std::string& reason) {
     return EffectScene{key, effect_scene(ball_of(material)), effect_scene(ball_of(plainer)), reason};
   };
+  const auto with_light = [](const std::string& light) {
+    return "{\"lights\": [" + light + "], " + effect_scene("").substr(1);
+  };
   const std::string lamp = R"({"type": "diffuse", "emission": [20, 20, 20]})";
   const std::string balls =
       R"({"camera": {"position": [0, 2, 7], "target": [0, 1, 0], "fov": 40}, "objects": [)";
@@ -71,6 +74,10 @@ inline std::vector<EffectScene> effect_scenes() {
       with_ball("conductor", R"({"type": "conductor", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.2]})",
                 diffuse, "conductor of /objects/2/material"),
       with_ball("plastic", R"({"type": "plastic"})", diffuse, "plastic of /objects/2/material"),
+      {"environment", with_light(R"({"type": "environment", "radiance": [1, 1, 1]})"), effect_scene(""),
+       "environment /lights/0"},
+      {"delta_lights", with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [1, 1, 1]})"),
+       with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [0, 0, 0]})"), "light /lights/0"},
   };
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("Damaged and foreign images have one clear line each") {
   };
   CHECK(fault("a.png", "") == "a.png: is empty; expected an image");
   CHECK(fault("a.png", "no image at all, only some text that is longer than a header") ==
-        "a.png: cannot be decoded: expected PNG, JPEG, BMP, TGA, HDR or EXR");
+        "a.png: cannot be decoded: expected PNG, JPEG, BMP, TGA, HDR, PFM or EXR");
   CHECK(user_error_of([&] { read_image(folder.path("none.png"), false); }, folder.path("none.png")) ==
         "none.png: no such file");
   std::filesystem::create_directory(folder.path("folder.png"));

@@ -134,6 +134,46 @@ CheckResult closed_sphere(CheckContext& context) {
   return result;
 }
 
+/// Balls that lose nothing under an environment of radiance 1, which all of the picture shows. Photons and
+/// shadow rays come from the environment alone.
+CheckResult environment_furnace(CheckContext& context) {
+  CheckResult result = deviation_result();
+  const RenderBudget budget(context.inputs, 2, 32);
+  Scene scene;
+  // Light is lost with the paths that are cut off, between white balls one in a few hundred a bounce.
+  scene.max_depth = 64;
+  scene.renderer.radius = 0.2;
+  scene.camera = make_camera({0, 0, 3.4}, {0, 0, 0}, 1.0);
+  const auto materials = furnace_materials();
+  TextureSpec white;
+  white.kind = TextureSpec::Kind::checker;
+  white.a = white.b = {1, 1, 1};
+  scene.textures = {white};
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const double x = 0.5 * (static_cast<double>(i) - 2.5);
+    scene.objects.push_back(make_sphere({x, 0, 0}, 0.21, static_cast<int>(i)));
+    scene.materials.push_back(materials[i].spec);
+  }
+  Environment environment;
+  environment.map.width = 64;
+  environment.map.height = 32;
+  environment.map.rgba.assign(std::size_t{4} * 64 * 32, 1.0f);
+  scene.environment = environment;
+  budget.apply(scene);
+  scene.renderer.integrator = Integrator::pt;
+  take(result, deviation_from_one(render_for(context, scene).picture, 0, budget.side), "path tracing");
+  scene.renderer.integrator = Integrator::sppm;
+  const Picture picture = render_for(context, scene).picture;
+  const double mean =
+      std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
+  // A tenth of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
+  // its light.
+  const double noise = 1 / std::sqrt(static_cast<double>(budget.inputs()));
+  take(result, std::max(0.0, std::fabs(mean - 1) - noise), "photon mapping");
+  result.inputs = 2 * budget.inputs();
+  return result;
+}
+
 /// A coarse smooth torus of diffuse walls and, inside its tube, a smaller one of mirrors. The camera is in
 /// the tube or outside of it, and lamps are where it is not: the picture is black.
 Scene dark_tube(bool camera_inside, Integrator integrator) {
@@ -182,6 +222,7 @@ CheckResult dark_inside(CheckContext& context) {
 std::vector<Check> energy_checks() {
   return {{14, "white furnace: no material loses or gains", 3, white_furnace},
           {14, "a closed sphere with K_d = L_e = 1/2 is 1", 3, closed_sphere},
+          {14, "white balls under an even sky of 1 are 1", 3, environment_furnace},
           {15, "no light through closed smooth meshes", 10, dark_inside}};
 }
 

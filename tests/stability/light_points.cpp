@@ -167,7 +167,8 @@ CheckResult points(CheckContext& context) {
                one_minus_cos = 1 - std::sqrt(1 - sine * sine);
   const DeviceScene& s = lights.uploaded;
   SampleKernel<Drawn> draw(context, program(context), "draw_at_random", lights.params, s.nodes, s.blocks,
-                           s.attributes, s.shapes, s.curves, s.materials, s.textures, s.texels, s.emitters);
+                           s.attributes, s.shapes, s.curves, s.materials, s.textures, s.texels, s.emitters,
+                           s.environment);
   return run_histogram_check(context, std::move(histograms), draw,
                              [&](const Drawn& drawn, std::uint64_t, std::vector<Histogram>& to) {
                                const Light light = light_of[drawn.emitter];
@@ -203,7 +204,7 @@ CheckResult densities(CheckContext& context) {
   const DeviceScene& s = lights.uploaded;
   CheckKernel kernel(context, program(context), "draw");
   kernel.with(lights.params, s.nodes, s.blocks, s.attributes, s.shapes, s.curves, s.materials, s.textures,
-              s.texels, s.emitters);
+              s.texels, s.emitters, s.environment);
   return run_random_check(
       context, 2e-4, "relative",
       [](InputRandom& random, std::uint64_t) {

@@ -17,6 +17,8 @@ std::vector<Check> stability_checks() {
                             sampling_checks(),
                             light_sampling_checks(),
                             light_point_checks(),
+                            delta_light_checks(),
+                            environment_checks(),
                             fresnel_checks(),
                             rough_lobe_checks(),
                             rough_lobe_sampling_checks(),

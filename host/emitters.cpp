@@ -1,0 +1,117 @@
+#include "emitters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "environment.hpp"
+
+namespace causticl {
+namespace {
+
+float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+/// Centre and radius of a sphere around all that is bounded, which light from beyond the scene has to cover.
+/// The sphere about the bounding box, a little larger, so that no rounding in a kernel cuts it.
+float4 scene_sphere(const TreeInput& tree) {
+  Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+  const auto add = [&](const float(&p)[3]) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min<double>(low[axis], p[axis]);
+      high[axis] = std::max<double>(high[axis], p[axis]);
+    }
+  };
+  for (const auto& triangle : tree.triangles)
+    for (const auto& corner : triangle.position) add(corner);
+  for (const auto& shape : tree.shapes) {
+    add(shape.bounds.low);
+    add(shape.bounds.high);
+  }
+  if (!(low.x <= high.x)) return {0, 0, 0, 1};  // infinite planes alone
+  const Vec3 centre = 0.5 * (low + high);
+  const double largest = max_component({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
+  return to_float4(centre, 1.0001 * length(0.5 * (high - low)) + 1e-6 * largest);
+}
+
+double square(float x) { return static_cast<double>(x) * x; }
+
+Emitter delta_emitter(const DeltaLight& light, float4 sphere) {
+  Emitter result{};
+  switch (light.kind) {
+    case DeltaLight::Kind::point:
+      result.type = EMITTER_POINT;
+      result.a = to_float4(light.position);
+      result.radiance = to_float4(light.intensity, 4);
+      break;
+    case DeltaLight::Kind::spot: {
+      // 1 - cos x = 2 sin^2(x / 2), which keeps narrow cones exact.
+      const double half = light.angle / 2 * std::numbers::pi / 180;
+      const double sine = std::sin(half / 2), even_sine = std::sin(half * (1 - light.blend) / 2);
+      result.type = EMITTER_SPOT;
+      result.a = to_float4(light.position);
+      result.b = to_float4(light.direction);
+      result.c = to_float4({2 * sine * sine, 2 * even_sine * even_sine, 0});
+      // The falloff is symmetric about 1/2 in the cosine, so that its border counts half.
+      result.radiance = to_float4(light.intensity, static_cast<double>(result.c.x) + result.c.y);
+      break;
+    }
+    case DeltaLight::Kind::directional:
+      result.type = EMITTER_DIRECTIONAL;
+      result.a = sphere;
+      result.b = to_float4(light.direction);
+      result.radiance = to_float4(light.intensity, square(sphere.w));
+      break;
+  }
+  return result;
+}
+
+Emitter environment_emitter(const Environment& environment, float4 sphere) {
+  Emitter result{};
+  const double integral = environment_integral(environment);
+  result.type = EMITTER_ENVIRONMENT;
+  result.a = sphere;
+  result.b = to_float4({environment.rotation / 360, 0, 0});
+  result.radiance = to_float4({integral, integral, integral}, square(sphere.w));
+  result.shape = static_cast<uint>(environment.map.width);
+  result.first_area = static_cast<uint>(environment.map.height);
+  return result;
+}
+
+/// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
+/// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
+std::uint64_t share_numbers(World& world) {
+  const auto power = [](const Emitter& light) {
+    return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
+           static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
+  };
+  for (const auto& light : world.emitters) world.emitted_power += power(light);
+  constexpr double numbers = static_cast<double>(std::uint64_t{1} << EMITTER_CHOICE_BITS);
+  double sum = 0;
+  std::uint64_t before = 0, owned = 0;
+  for (auto& light : world.emitters) {
+    sum += power(light);
+    light.cdf = static_cast<std::uint64_t>(std::llround(sum / world.emitted_power * numbers));
+    owned = light.cdf - before;
+    light.probability = static_cast<float>(static_cast<double>(owned) / numbers);
+    before = light.cdf;
+  }
+  return owned;
+}
+
+}  // namespace
+
+void finish_emitters(const Scene& scene, World& world) {
+  const bool environment = scene.environment && is_lit(*scene.environment);
+  if (environment || !scene.lights.empty()) {
+    const float4 sphere = scene_sphere(world.tree);
+    for (const auto& light : scene.lights)
+      if (is_lit(light)) world.emitters.push_back(delta_emitter(light, sphere));
+    if (environment) world.emitters.push_back(environment_emitter(*scene.environment, sphere));
+  }
+  const std::uint64_t last = share_numbers(world);
+  if (environment) world.environment = environment_table(*scene.environment, last);
+}
+
+}  // namespace causticl
