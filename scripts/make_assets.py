@@ -11,7 +11,7 @@ import sys
 import numpy as np
 from PIL import Image
 
-from assets import dragon, logo, mesh, models, stress, textures
+from assets import dragon, logo, mesh, models, sky, stress, textures
 from assets.textures import srgb
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
@@ -87,6 +87,8 @@ ASSETS = {
     "logo.png": texture(lambda: logo.logo(512, logo.INK, logo.GOLD, srgb(250, 250, 250))),
     # Textures for the extended scenes, decoded from sRGB.
     "maple_srgb.jpg": texture(lambda: textures.wood(800, 640, 5, *MAPLE, 17), srgb_coded=True),
+    # A sky, as radiance.
+    "sky.hdr": lambda name: sky.write_hdr(FOLDER / name, sky.sky(384, 192)),
     # What the stress scenes compare: hard meshes, and easy ones of the same shapes.
     "../stress/assets/needle_box.ply": ply(stress.needle_box),
     "../stress/assets/cap.ply": ply(stress.cap),
