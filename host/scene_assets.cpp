@@ -60,9 +60,10 @@ int SceneLoader::image(const JsonReader& json, bool srgb) {
 }
 
 Image SceneLoader::radiance_map(const JsonReader& json) {
+  const std::string file = resolve(json, scene.file);
   Image image;
   try {
-    image = read_image(resolve(json, scene.file), true);
+    image = read_image(file, true);
   } catch (const UserError& error) {
     json.fail(error.what());
   }

@@ -8,12 +8,13 @@ source "$(dirname "$0")/common.sh"
 "$root/scripts/build.sh"
 scenes=("$@")
 [ $# -gt 0 ] || scenes=("$root"/scenes/[1-7]*.json \
-  "$root"/scenes/{cornell_box,analytic_sphere,glass_caustic,effects/rough_metals}.json)
+  "$root"/scenes/{cornell_box,analytic_sphere,glass_caustic,effects/*}.json)
 mkdir -p "$root/scenes/gallery"
 for scene in "${scenes[@]}"; do
   name=$(basename "$scene" .json)
   size=400x300 passes=48
   [ "$name" = cornell_box ] && size=300x300
+  [[ "$scene" == */effects/* ]] && size=400x250
   [ "$name" = rough_metals ] && size=640x400
   [ "$name" = glass_caustic ] && size=800x600 passes=96
   "$root/build/causticl" render "$scene" --size $size --passes $passes --quiet -o "$root/scenes/gallery/$name.png"
