@@ -23,7 +23,7 @@ double mean_value(const Picture& picture) {
 
 // A floor of reflectance 0.6 in y = 0, whose middle the camera sees from above.
 const char* const lit_floor = R"({
-  "width": 16, "height": 16, "max_depth": 1,
+  "width": 64, "height": 64, "max_depth": 1,
   "renderer": {"type": "sppm", "view_point_sample": 4, "photon_sample": 200000, "radius": 0.15},
   "camera": {"position": [0, 5, 0.01], "target": [0, 0, 0], "fov": 22},
   "materials": {"floor": {"type": "diffuse", "color": [0.6, 0.6, 0.6]}},
@@ -88,7 +88,7 @@ TEST_CASE("the irradiance of point, spot and directional lights is that of the c
     INFO(c.light);
     const Scene scene = scene_from_text(replaced(lit_floor, "LIGHT", c.light));
     // Without photons nothing is random but the place in the pixel. Some 10^6 photons lie in the picture.
-    check_means(scene, exact_mean(scene, c.irradiance), 256, 2e-3, 20, 6e-3);
+    check_means(scene, exact_mean(scene, c.irradiance), 16, 2e-3, 16, 6e-3);
   }
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("several lights add up, each chosen by its power") {
       lit_floor, "LIGHT", R"({"type": "directional", "direction": [0, -1, 0], "irradiance": [0.5, 0.5, 0.5]},
       {"type": "directional", "direction": [3, -4, 0], "irradiance": [1, 1, 1]},
       {"type": "environment", "radiance": [0.25, 0.25, 0.25]})"));
-  check_means(scene, exact_mean(scene, [](Vec3) { return 0.5 + 0.8 + 0.25 * M_PI; }), 2048, 5e-3, 20, 6e-3);
+  check_means(scene, exact_mean(scene, [](Vec3) { return 0.5 + 0.8 + 0.25 * M_PI; }), 128, 5e-3, 20, 6e-3);
 }
 
 TEST_CASE("a rough lobe reflects a point light alike in both integrators, with shadow rays and without") {
@@ -106,27 +106,27 @@ TEST_CASE("a rough lobe reflects a point light alike in both integrators, with s
   text = replaced(text, R"({"type": "diffuse", "color": [0.6, 0.6, 0.6]})",
                   R"({"type": "conductor", "eta": [0.2, 0.2, 0.2], "k": [3, 3, 3], "roughness": 0.5})");
   const Scene scene = scene_from_text(text);
-  const double expected = mean_value(render_with(scene, Integrator::pt, 256).picture);
+  const double expected = mean_value(render_with(scene, Integrator::pt, 16).picture);
   REQUIRE(expected > 0.1);
-  check_means(scene, expected, 256, 2e-3, 64, 2e-3);
+  check_means(scene, expected, 16, 3e-3, 4, 3e-3);
 }
 
 TEST_CASE("a white ball under an even sky of 1 cannot be told from it") {
   const Scene scene = scene_from_text(R"({
-    "width": 16, "height": 12, "max_depth": 4,
+    "width": 128, "height": 96, "max_depth": 4,
     "renderer": {"type": "sppm", "view_point_sample": 4, "photon_sample": 200000, "radius": 0.5},
     "camera": {"position": [0, 0.3, 3], "target": [0, 0, 0], "fov": 45},
     "objects": [{"type": "sphere", "radius": 1, "material": {"type": "diffuse", "color": [1, 1, 1]}}],
     "lights": [{"type": "environment", "radiance": [1, 1, 1]}]})");
-  const auto pt = render_with(scene, Integrator::pt, 8192);
+  const auto pt = render_with(scene, Integrator::pt, 128);
   // A sample has a standard deviation of about 0.5 on the ball.
   CHECK(mean_value(pt.picture) == Approx(1).margin(1e-3));
   CHECK(pt.statistics.faults.non_finite == 0);
   // Light sampling alone: 1.2.
-  CHECK(mean_value(render_with(scene, Integrator::sppm, 1024).picture) == Approx(1).margin(2.5e-3));
+  CHECK(mean_value(render_with(scene, Integrator::sppm, 16).picture) == Approx(1).margin(2.5e-3));
   Scene photons = scene;
   photons.renderer.direct_light = DirectLight::photons;
-  CHECK(mean_value(render_with(photons, Integrator::sppm, 16).picture) == Approx(1).margin(2e-3));
+  CHECK(mean_value(render_with(photons, Integrator::sppm, 12).picture) == Approx(1).margin(2e-3));
 }
 
 TEST_CASE("under a sky that is white above and black below a tilted plate sees its share") {
@@ -144,7 +144,7 @@ TEST_CASE("under a sky that is white above and black below a tilted plate sees i
     tilted.objects[0].transform = tilted.objects[0].transform.followed_by(turn);
     tilted.camera.origin = turn.point(scene.camera.origin);
     for (Vec3* v : {&tilted.camera.axis, &tilted.camera.right, &tilted.camera.up}) *v = turn.vector(*v);
-    check_means(tilted, 0.6 * (1 + std::cos(tilt * M_PI / 180)) / 2, 2048, 6e-3, 16, 8e-3);
+    check_means(tilted, 0.6 * (1 + std::cos(tilt * M_PI / 180)) / 2, 128, 6e-3, 24, 2e-2);
   }
 }
 
