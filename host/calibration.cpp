@@ -34,7 +34,7 @@ std::optional<Calibration> calibration_of(const Picture& picture, const Picture&
   const auto estimate = picture_error(errors, confidence);
   if (!estimate) return {};
   const auto reference_errors = errors_of(reference);
-  double covered = 0;
+  double covered = 0, uncertain = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     PixelError error = errors[i];
     if (!reference_errors.empty()) {
@@ -44,9 +44,11 @@ std::optional<Calibration> calibration_of(const Picture& picture, const Picture&
     }
     const double difference =
         std::fabs(static_cast<double>(error.luminance) - luminance(&reference.rgb[3 * i]));
-    covered += difference <= error_bound(error, confidence);
+    const double bound = error_bound(error, confidence);
+    uncertain += bound > 0 || difference > 0;
+    covered += (bound > 0 || difference > 0) && difference <= bound;
   }
-  return Calibration{estimate->error, covered / static_cast<double>(errors.size())};
+  return Calibration{estimate->error, uncertain > 0 ? covered / uncertain : 1};
 }
 
 }  // namespace causticl

@@ -9,7 +9,9 @@ namespace causticl {
 
 struct Calibration {
   double estimated = 0;  // the picture's error by its channels error.noise and error.bias, at `confidence`
-  double covered = 0;    // share of the pixels that are off by less than their own bound at `confidence`
+  // The share of pixels that are off by less than their own bound at `confidence`, of those that are off or
+  // might be: a black background is no merit.
+  double covered = 0;
 };
 
 /// None for a picture without those channels. Where the reference has them as well, its errors widen the

@@ -84,32 +84,49 @@ std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels,
                       bound_of(biases, confidence)};
 }
 
-void ErrorTrend::add(std::uint64_t passes, double error) {
-  if (error > 0 && std::isfinite(error))
-    history_.emplace_back(std::log(static_cast<double>(passes)), std::log(error));
+void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels) {
+  pixels_ = pixels;
+  last_ = picture_error(pixels, confidence_);
+  if (last_ && last_->noise > 0)
+    noises_.emplace_back(std::log(static_cast<double>(passes)), std::log(last_->noise));
+  passes_ = passes;
 }
 
-double ErrorTrend::rate() const {
-  if (history_.empty()) return expected_rate_;
-  // A line through the latest error, by least squares; the expected rate is one more point, an octave
-  // off.
-  const auto [now, error] = history_.back();
+double ErrorTrend::noise_rate() const {
+  if (noises_.empty()) return expected_.noise;
+  // A line through the latest noise, by least squares; the expected rate is one more point, an octave off.
+  const auto [now, noise] = noises_.back();
   constexpr double octave = std::numbers::ln2;
-  double sum = octave * octave, weighted = sum * expected_rate_;
-  for (const auto& [passes, then] : history_) {
+  double sum = octave * octave, weighted = sum * expected_.noise;
+  for (const auto& [passes, then] : noises_) {
     const double distance = now - passes;
     if (distance > 3.01 * octave) continue;
     sum += distance * distance;
-    weighted += distance * (then - error);
+    weighted += distance * (then - noise);
   }
   return weighted / sum;
 }
 
 double ErrorTrend::passes_until(double wanted) const {
-  const auto [now, error] = history_.back();
-  if (std::log(wanted) >= error) return std::exp(now);
-  const double r = rate();
-  return r > 0 ? std::exp(now + (error - std::log(wanted)) / r) : std::numeric_limits<double>::infinity();
+  const auto errors = relative_errors(pixels_);
+  const double rate = noise_rate();
+  const auto reached = [&](double times) {
+    auto then = errors;
+    for (auto& error : then) {
+      error.noise *= std::pow(times, -rate);
+      error.bias *= std::pow(times, -expected_.bias);
+    }
+    return share_below(then, wanted) >= confidence_;
+  };
+  double low = 1, high = 1;
+  if (reached(low)) return static_cast<double>(passes_);
+  for (; !reached(high); low = high, high *= 8)
+    if (high > 1e12) return std::numeric_limits<double>::infinity();
+  while (high > low * 1.005) {
+    const double middle = std::sqrt(low * high);
+    (reached(middle) ? high : low) = middle;
+  }
+  return high * static_cast<double>(passes_);
 }
 
 }  // namespace causticl

@@ -27,28 +27,44 @@ double error_bound(const PixelError& pixel, double confidence);
 /// normally distributed noise. None for a black picture.
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence);
 
-/// The r of error ~ passes^-r that theory expects: for SPPM, whose radius takes from the photons what more
-/// passes bring, that of Knaus & Zwicker 2011, section 4.
-constexpr double sppm_rate(double alpha) { return alpha / 2; }
-constexpr double path_tracing_rate = 0.5;
+/// How noise and bias go down: each ~ passes^-rate.
+struct ErrorRates {
+  double noise = 0.5, bias = 0;
+};
 
-/// How the error has gone down so far, and where that leads.
+/// Those that theory expects of SPPM (Knaus & Zwicker 2011, section 4): the radius takes from the photons
+/// what more passes bring, R^2 ~ passes^(alpha - 1) and noise ~ passes^-(alpha / 2). The bias goes with R^2
+/// where illumination is smooth and with R along edges: the geometric mean of both.
+constexpr ErrorRates sppm_rates(double alpha) { return {alpha / 2, 0.7 * (1 - alpha)}; }
+constexpr ErrorRates path_tracing_rates{};
+
+/// How the error of a picture has gone down so far, and where that leads.
 class ErrorTrend {
  public:
-  explicit ErrorTrend(double expected_rate) : expected_rate_(expected_rate) {}
+  ErrorTrend(ErrorRates expected, double confidence) : expected_(expected), confidence_(confidence) {}
 
-  void add(std::uint64_t passes, double error);
+  /// The errors of pixels, or of a sample of them, after `passes` passes.
+  void add(std::uint64_t passes, const std::vector<PixelError>& pixels);
 
-  /// The rate as measured over the last three octaves of passes; the expected one weighs as much as one.
-  double rate() const;
+  /// The error of the picture when last added; none of a black picture.
+  const std::optional<PictureError>& last() const { return last_; }
 
-  /// Passes after which the error will be `wanted`, counted from the first. Infinite where there is no end in
-  /// sight. Needs at least one error.
+  /// The rate of the noise as measured over the last three octaves of passes; the expected one weighs as much
+  /// as one.
+  double noise_rate() const;
+
+  /// Passes after which the error will be `wanted`, counted from the first: by every pixel's noise and bias,
+  /// going on at noise_rate() and the expected rate of the bias. Infinite where there is no end in sight.
+  /// Needs last().
   double passes_until(double wanted) const;
 
  private:
-  double expected_rate_;
-  std::vector<std::pair<double, double>> history_;  // logarithms of passes and error
+  ErrorRates expected_;
+  double confidence_;
+  std::optional<PictureError> last_;
+  std::uint64_t passes_ = 0;
+  std::vector<PixelError> pixels_;                 // the last ones
+  std::vector<std::pair<double, double>> noises_;  // logarithms of passes and of the noise alone
 };
 
 }  // namespace causticl

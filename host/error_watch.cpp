@@ -7,24 +7,22 @@ namespace {
 
 constexpr std::size_t sample_pixels = 8192;  // a share of so many is right to half a percent
 
-double expected_rate(const RendererSpec& renderer) {
-  return renderer.integrator == Integrator::sppm ? sppm_rate(renderer.alpha) : path_tracing_rate;
+ErrorRates expected_rates(const RendererSpec& renderer) {
+  return renderer.integrator == Integrator::sppm ? sppm_rates(renderer.alpha) : path_tracing_rates;
 }
 
 }  // namespace
 
 ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confidence)
-    : film_(film), confidence_(confidence), trend_(expected_rate(renderer)) {}
+    : film_(film), confidence_(confidence), trend_(expected_rates(renderer), confidence) {}
 
 void ErrorWatch::update(std::uint64_t passes) {
   if (passes < next_) return;
   next_ = passes + std::max<std::uint64_t>(1, passes / 8);
-  last_ = measure(passes);
-  if (last_) trend_.add(passes, last_->error);
+  trend_.add(passes, film_.errors(passes, sample_pixels));
 }
 
 double ErrorWatch::passes_until(double wanted, std::uint64_t passes) const {
-  if (wanted >= last_->error) return 0;
   return std::max(0.0, trend_.passes_until(wanted) - static_cast<double>(passes));
 }
 

@@ -19,7 +19,7 @@ class ErrorWatch {
   void update(std::uint64_t passes);
 
   /// The error of the picture at the last look; none before the second pass, and none of a black picture.
-  const std::optional<PictureError>& last() const { return last_; }
+  const std::optional<PictureError>& last() const { return trend_.last(); }
 
   /// Further passes until the error is this; needs last().
   double passes_until(double wanted, std::uint64_t passes) const;
@@ -31,7 +31,6 @@ class ErrorWatch {
   Film& film_;
   double confidence_;
   ErrorTrend trend_;
-  std::optional<PictureError> last_;
   std::uint64_t next_ = 2;
 };
 

@@ -75,20 +75,34 @@ TEST_CASE("dark pixels are judged against a tenth of the mean") {
 }
 
 TEST_CASE("a trend follows the rate that is measured, and starts from the one that is expected") {
-  ErrorTrend trend(0.5);
-  trend.add(2, 0.4);
-  CHECK(trend.rate() == Approx(0.5));
-  CHECK(trend.passes_until(0.2) == Approx(8));
-  CHECK(trend.passes_until(0.5) == Approx(2));
+  const auto noisy = [](double noise) {
+    return std::vector<PixelError>(100, {1, static_cast<float>(noise), 0});
+  };
+  ErrorTrend trend({0.5, 0}, 0.9);
+  CHECK(!trend.last());
+  trend.add(2, noisy(0.4));
+  const double error = trend.last()->error;
+  CHECK(error == Approx(0.4 * 1.6449).epsilon(2e-3));
+  CHECK(trend.noise_rate() == Approx(0.5));
+  CHECK(trend.passes_until(error / 2) == Approx(8).epsilon(0.01));
+  CHECK(trend.passes_until(error * 1.1) == 2);
   for (const std::uint64_t passes : {4, 8, 16, 32, 64, 128})
-    trend.add(passes, 0.4 * std::pow(passes / 2.0, -0.35));
-  CHECK(trend.rate() == Approx(0.35).margin(0.012));
-  CHECK(trend.passes_until(0.4 * std::pow(64.0, -0.35) / 2) ==
-        Approx(128 * std::pow(2, 1 / 0.35)).epsilon(0.08));
+    trend.add(passes, noisy(0.4 * std::pow(passes / 2.0, -0.35)));
+  CHECK(trend.noise_rate() == Approx(0.35).margin(0.012));
+  CHECK(trend.passes_until(trend.last()->error / 2) == Approx(128 * std::pow(2, 1 / 0.35)).epsilon(0.08));
 }
 
-TEST_CASE("a trend that leads nowhere never ends") {
-  ErrorTrend trend(0.35);
-  for (const std::uint64_t passes : {2, 4, 8, 16, 32, 64}) trend.add(passes, 0.1 * std::pow(passes, 0.1));
-  CHECK(trend.passes_until(0.05) == INFINITY);
+TEST_CASE("bias goes down at its own rate, and what does not go down never ends") {
+  const std::vector<PixelError> biased(100, {1, 0, 0.1f});
+  ErrorTrend trend({0.35, 0.2}, 0.9);
+  trend.add(10, biased);
+  CHECK(trend.passes_until(0.05) == Approx(10 * std::pow(2, 1 / 0.2)).epsilon(0.02));
+  ErrorTrend constant({0.35, 0}, 0.9);
+  constant.add(10, biased);
+  CHECK(constant.passes_until(0.05) == INFINITY);
+  // Between the two: noise falls away, and the bias is left.
+  ErrorTrend both({0.5, 0.2}, 0.9);
+  both.add(10, std::vector<PixelError>(100, {1, 0.1f, 0.1f}));
+  const double half = both.passes_until(both.last()->error / 2);
+  CHECK((half > 10 * std::pow(2, 1 / 0.5) && half < 10 * std::pow(2, 1 / 0.2)));
 }
