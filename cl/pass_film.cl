@@ -8,9 +8,8 @@
 
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
 // the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of surfaces,
-// the band that is wrong is as wide as the radius, and this is 2. Which of them a pixel is near to is not known: the
-// geometric mean is off by a fifth at most.
-#define BIAS_OF_BLUR 1.63f
+// the band that is wrong is as wide as the radius, and this is 2. Most of what is wrong lies along edges.
+#define BIAS_OF_BLUR 2.0f
 
 // The window of at most 2 reach + 1 pixels around x that lies in [0, size): *first and its end.
 INLINE uint window_of(uint x, uint size, uint reach, uint *first) {

@@ -45,7 +45,7 @@ double share_below(const std::vector<RelativeError>& errors, double bound) {
   return share / static_cast<double>(errors.size());
 }
 
-/// Where a function that grows from 0 to 1 reaches `wanted`, to 0.1%; 0 where it starts above.
+/// Where a function that grows from 0 to 1 reaches `wanted`, to 0.5%; 0 where it starts above.
 template <typename Function>
 double inverse(const Function& function, double wanted) {
   constexpr double smallest = 1e-12, largest = 1e12;
@@ -54,7 +54,7 @@ double inverse(const Function& function, double wanted) {
   double low = 0.02, high = 0.04;
   while (low > smallest && function(low) >= wanted) high = std::exchange(low, low / 4);
   while (high < largest && function(high) < wanted) low = std::exchange(high, high * 4);
-  while (high > low * 1.001) {
+  while (high > low * 1.005) {
     const double middle = std::sqrt(low * high);
     (function(middle) < wanted ? low : high) = middle;
   }

@@ -5,7 +5,7 @@
 namespace causticl {
 namespace {
 
-constexpr std::size_t sample_pixels = 8192;  // a share of so many is right to half a percent
+constexpr std::size_t sample_pixels = 4096;  // a share of so many is right to half a percent
 
 ErrorRates expected_rates(const RendererSpec& renderer) {
   return renderer.integrator == Integrator::sppm ? sppm_rates(renderer.alpha) : path_tracing_rates;
@@ -18,7 +18,7 @@ ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confiden
 
 void ErrorWatch::update(std::uint64_t passes) {
   if (passes < next_) return;
-  next_ = passes + std::max<std::uint64_t>(1, passes / 8);
+  next_ = passes + std::max<std::uint64_t>(1, passes / 5);
   trend_.add(passes, film_.errors(passes, sample_pixels));
 }
 

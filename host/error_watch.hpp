@@ -13,7 +13,7 @@ class ErrorWatch {
  public:
   ErrorWatch(Film& film, const RendererSpec& renderer, double confidence);
 
-  /// To be told of every pass. Looks at the film eight times from one power of two to the next: often enough
+  /// To be told of every pass. Looks at the film four times from one power of two to the next: often enough
   /// to see when the error is small enough, seldom enough to cost next to nothing, and by the number of
   /// passes alone, so that the same render stops at the same pass.
   void update(std::uint64_t passes);
