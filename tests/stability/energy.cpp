@@ -150,8 +150,9 @@ CheckResult environment_furnace(CheckContext& context) {
   white.a = white.b = {1, 1, 1};
   scene.textures = {white};
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const double x = 0.5 * (static_cast<double>(i) - 2.5);
-    scene.objects.push_back(make_sphere({x, 0, 0}, 0.21, static_cast<int>(i)));
+    const double column = static_cast<double>(i % 3), row = static_cast<double>(i / 3);
+    scene.objects.push_back(
+        make_sphere({1.05 * (column - 1), 1.05 * (row - 0.5), 0}, 0.5, static_cast<int>(i)));
     scene.materials.push_back(materials[i].spec);
   }
   Environment environment;
@@ -166,9 +167,9 @@ CheckResult environment_furnace(CheckContext& context) {
   const Picture picture = render_for(context, scene).picture;
   const double mean =
       std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
-  // A tenth of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
+  // A seventh of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
   // its light.
-  const double noise = 1 / std::sqrt(static_cast<double>(budget.inputs()));
+  const double noise = 2 / std::sqrt(static_cast<double>(budget.inputs()));
   take(result, std::max(0.0, std::fabs(mean - 1) - noise), "photon mapping");
   result.inputs = 2 * budget.inputs();
   return result;
