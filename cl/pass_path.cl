@@ -5,7 +5,7 @@
 
 // Radiance along one camera path. Paths scatter at most params.max_depth times.
 OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays,
-                           volatile global Counters *counters) {
+                            volatile global Counters *counters) {
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
   for (uint depth = 0; depth <= max_depth; ++depth) {

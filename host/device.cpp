@@ -90,7 +90,10 @@ DeviceInfo find_device(const std::string& spec) {
                   " found; expected an index, cpu, gpu or part of a name (see `causticl devices`)");
 }
 
-Device::Device(const DeviceInfo& info, unsigned threads) : info_(info), device_(info.device) {
+Device::Device(const DeviceInfo& info, unsigned threads)
+    : info_(info),
+      device_(info.device),
+      is_pocl_(info.platform_name.find("Portable Computing Language") != std::string::npos) {
   try {
     if (threads > 0 && threads < info.compute_units && info.type == "cpu") {
       const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
@@ -150,6 +153,16 @@ void Device::launch(cl::Kernel& kernel, std::size_t items) {
   pending_.emplace_back(kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), event);
   // Events hold driver memory: drop those that are done before many gather.
   if (pending_.size() >= 4096) collect_events();
+}
+
+std::size_t Device::launch_size(std::size_t items) const {
+  constexpr std::size_t pocl_large = 65536;
+  const std::size_t at_least = is_pocl_ ? std::max(items, pocl_large) : items;
+  return (at_least + local_size_ - 1) / local_size_ * local_size_;
+}
+
+void Device::launch_pass(cl::Kernel& kernel, std::size_t items) {
+  if (items > 0) launch(kernel, launch_size(items));
 }
 
 void Device::collect_events() {

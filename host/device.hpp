@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <string>
@@ -42,7 +43,11 @@ class Device {
 
   const DeviceInfo& info() const { return info_; }
   const cl::Context& context() const { return context_; }
+  const cl::Device& cl_device() const { return device_; }
   cl::CommandQueue& queue() { return queue_; }
+
+  /// Whether programs that are built at the same time are: PoCL has one lock around its compiler.
+  bool compiles_in_parallel() const { return !is_pocl_; }
 
   /// Compiles OpenCL C. Throws DeviceError with the compiler's log.
   cl::Program build(const std::string& source, const std::string& options = "");
@@ -74,6 +79,12 @@ class Device {
   /// once for get_global_id(0) >= items. The time is added to kernel_times() under the kernel's name.
   void launch(cl::Kernel& kernel, std::size_t items);
 
+  /// What a launch by launch_pass over `items` work-items takes: PoCL compiles a kernel once for launches of
+  /// up to 65,535 items and again for larger ones, and idle items are cheap, so that there all are larger.
+  std::size_t launch_size(std::size_t items) const;
+  /// launch() over launch_size(items) work-items.
+  void launch_pass(cl::Kernel& kernel, std::size_t items);
+
   /// Waits for the queue, then returns what has been launched so far.
   const std::map<std::string, KernelTime>& kernel_times();
 
@@ -90,7 +101,8 @@ class Device {
   cl::Context context_;
   cl::CommandQueue queue_;
   std::size_t local_size_ = 64;
-  double build_seconds_ = 0;
+  bool is_pocl_ = false;
+  std::atomic<double> build_seconds_{0};
   std::uint64_t allocated_bytes_ = 0;
   std::vector<std::pair<std::string, cl::Event>> pending_;
   std::map<std::string, KernelTime> kernel_times_;

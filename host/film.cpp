@@ -5,12 +5,12 @@
 
 namespace causticl {
 
-Film::Film(Device& device, const KernelOptions& kernels, int width, int height)
+Film::Film(Device& device, Programs& programs, int width, int height)
     : device_(device),
       width_(width),
       height_(height),
-      pixels_(device.buffer(pixels() * sizeof(FilmPixel), "film")),
-      pixel_errors_(build_pass(device, "film", kernels), "pixel_errors") {
+      programs_(programs),
+      pixels_(device.buffer(pixels() * sizeof(FilmPixel), "film")) {
   device_.clear(pixels_, pixels() * sizeof(FilmPixel));
 }
 
@@ -36,9 +36,10 @@ std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
     errors_ = device_.buffer(count * sizeof(PixelError), "errors of pixels");
     errors_capacity_ = count;
   }
+  if (!pixel_errors_()) pixel_errors_ = programs_.kernel("film", "pixel_errors");
   set_arguments(pixel_errors_, pixels_, errors_, static_cast<cl_uint>(width_), static_cast<cl_uint>(height_),
                 static_cast<cl_uint>(passes), static_cast<cl_uint>(stride), static_cast<cl_uint>(count));
-  device_.launch(pixel_errors_, count);
+  device_.launch_pass(pixel_errors_, count);
   return device_.download<PixelError>(errors_, count);
 }
 

@@ -3,7 +3,7 @@
 
 #include "device.hpp"
 #include "image.hpp"
-#include "kernels.hpp"
+#include "programs.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -11,7 +11,7 @@ namespace causticl {
 class Film {
  public:
   /// All black.
-  Film(Device& device, const KernelOptions& kernels, int width, int height);
+  Film(Device& device, Programs& programs, int width, int height);
 
   const cl::Buffer& buffer() const { return pixels_; }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
@@ -28,6 +28,7 @@ class Film {
  private:
   Device& device_;
   int width_, height_;
+  Programs& programs_;
   cl::Buffer pixels_, errors_;
   std::size_t errors_capacity_ = 0;
   cl::Kernel pixel_errors_;

@@ -1,6 +1,7 @@
 // What the pass loop asks of an integrator.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include "faults.hpp"
@@ -27,8 +28,17 @@ class PassIntegrator {
   /// What the integrator knows of every pixel beside its colour. Waits for the queue.
   virtual std::vector<Channel> channels() { return {}; }
 
+  /// When the first pass began on the device, and how long it ran before enqueue_pass(0).
+  std::chrono::steady_clock::time_point began() const { return began_; }
+  double early_seconds() const { return early_seconds_; }
+
   /// Device memory that grows with the number of pixels, without the film.
   virtual double bytes_per_pixel() const = 0;
+
+ protected:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point began_;
+  double early_seconds_ = 0;
 };
 
 /// The counters of a device, which wrap at 2^32, as totals that do not.

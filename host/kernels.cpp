@@ -41,12 +41,14 @@ void dump(const std::string& folder, const std::string& pass, const std::string&
 
 const char* name_of(Precision precision) { return precision == Precision::float64 ? "double" : "float"; }
 
+unsigned effects_of_pass(const std::string& pass) { return effects_read.at(pass); }
+
 cl::Program build_pass(Device& device, const std::string& pass, const KernelOptions& options) {
   const bool in_double = options.precision == Precision::float64;
   if (in_double && !device.info().fp64)
     throw DeviceError("--precision double: device " + device.info().name +
                       " has no double precision (cl_khr_fp64); use --precision float or another --device");
-  const unsigned effects = options.effects & effects_read.at(pass);
+  const unsigned effects = options.effects & effects_of_pass(pass);
   char define[64];
   std::snprintf(define, sizeof define, "#define EFFECTS 0x%xu\n", effects);
   std::string defines = define;
@@ -55,7 +57,8 @@ cl::Program build_pass(Device& device, const std::string& pass, const KernelOpti
     defines += "#define TRIANGLES_PRECOMPUTED\n";
   const std::string source = defines + flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
   if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);
-  return device.build(source);
+  // Names and types of arguments, for the first launch of each kernel (programs.cpp).
+  return device.build(source, "-cl-kernel-arg-info");
 }
 
 }  // namespace causticl

@@ -28,6 +28,9 @@ struct KernelOptions {
   std::string dump_kernels;  // write each flattened source here; empty: do not
 };
 
+/// The EFFECT_* bits that the kernels of a pass ask for; the others change nothing in its program.
+unsigned effects_of_pass(const std::string& pass);
+
 /// Builds the program of `pass` ("photon" for cl/pass_photon.cl), masked to the effects that this pass reads,
 /// so that passes which read none are the same for every scene. Throws DeviceError where the device has no
 /// arithmetic of the precision asked for.

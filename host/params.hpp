@@ -24,11 +24,9 @@ inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, 
   return params;
 }
 
-/// Work-items of one launch. PoCL compiles a kernel again for more than 65,535 work-items, and a chunk that
-/// stays in cache is as fast; a GPU needs many more to fill it.
+/// Work-items of one launch: on a CPU what stays in cache; a GPU needs many more to fill it.
 inline std::size_t launch_chunk(const Device& device) {
-  return device.info().type == "cpu" ? 65535 / device.local_size() * device.local_size()
-                                     : std::size_t{1} << 20;
+  return std::size_t{1} << (device.info().type == "cpu" ? 16 : 20);
 }
 
 }  // namespace causticl

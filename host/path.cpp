@@ -7,12 +7,11 @@
 namespace causticl {
 
 PathTracer::PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-                       const KernelOptions& kernels, std::uint32_t seed)
+                       Programs& programs, std::uint32_t seed)
     : device_(device),
       film_(film),
       params_(scene_params(scene, device_scene, seed)),
-      program_(build_pass(device, "path", kernels)),
-      trace_paths_(program_, "trace_paths"),
+      trace_paths_(programs.kernel("path", "trace_paths")),
       counters_(device.buffer(sizeof(Counters), "counters")) {
   device_.clear(counters_, sizeof(Counters));
   first_argument_ = set_scene_arguments(trace_paths_, device_scene);
@@ -21,13 +20,14 @@ PathTracer::PathTracer(const Scene& scene, const DeviceScene& device_scene, Devi
 }
 
 void PathTracer::enqueue_pass(std::uint32_t pass) {
+  if (pass == 0) began_ = Clock::now();
   params_.pass = pass;
   const std::size_t pixels = film_.pixels(), chunk = launch_chunk(device_);
   for (std::size_t first = 0; first < pixels; first += chunk) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk, pixels - first));
     trace_paths_.setArg(first_argument_ + 2, params_);
-    device_.launch(trace_paths_, params_.pixel_count);
+    device_.launch_pass(trace_paths_, params_.pixel_count);
   }
 }
 

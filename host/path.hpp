@@ -3,7 +3,7 @@
 
 #include "film.hpp"
 #include "integrator.hpp"
-#include "kernels.hpp"
+#include "programs.hpp"
 #include "upload.hpp"
 
 namespace causticl {
@@ -11,7 +11,7 @@ namespace causticl {
 class PathTracer : public PassIntegrator {
  public:
   PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-             const KernelOptions& kernels, std::uint32_t seed);
+             Programs& programs, std::uint32_t seed);
 
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
@@ -21,7 +21,6 @@ class PathTracer : public PassIntegrator {
   Device& device_;
   Film& film_;
   Params params_{};
-  cl::Program program_;
   cl::Kernel trace_paths_;
   cl_uint first_argument_;
   cl::Buffer counters_;

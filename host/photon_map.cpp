@@ -14,28 +14,23 @@ std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 
 
 }  // namespace
 
-PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, const KernelOptions& kernels,
-                     const cl::Buffer& counters)
+PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters)
     : scene_(scene),
       device_(device),
-      photon_program_(build_pass(device, "photon", kernels)),
-      grid_program_(build_pass(device, "grid", kernels)),
-      trace_photons_(photon_program_, "trace_photons"),
-      count_photons_(grid_program_, "count_photons"),
-      sum_segments_(grid_program_, "sum_segments"),
-      scan_sums_(grid_program_, "scan_sums"),
-      scan_segments_(grid_program_, "scan_segments"),
-      move_photons_(grid_program_, "move_photons"),
-      first_argument_(set_scene_arguments(trace_photons_, scene)),
-      photon_bytes_(sizeof(Photon) * record_scale(kernels.precision)),
+      programs_(programs),
+      photon_bytes_(sizeof(Photon) * record_scale(programs.options().precision)),
       counters_(counters) {
   reserve_buckets(1);
   sorted_ = device_.buffer(0, "sorted photons");
 }
 
+void PhotonMap::prepare() {
+  trace_photons_ = programs_.kernel("photon", "trace_photons");
+  first_argument_ = set_scene_arguments(trace_photons_, scene_);
+}
+
 Counters PhotonMap::trace(Params params) {
   stored_ = 0;
-  if (params.emitter_count == 0) return device_.download<Counters>(counters_, 1)[0];
   // Two stored photons for each emitted one are usual; a closed white room wants more, and gets it below.
   if (!reserve_photons(2ull * params.photon_count))
     throw UserError(std::to_string(params.photon_count) +
@@ -46,7 +41,7 @@ Counters PhotonMap::trace(Params params) {
     trace_photons_.setArg(first_argument_, photons_);
     trace_photons_.setArg(first_argument_ + 1, counters_);
     trace_photons_.setArg(first_argument_ + 2, params);
-    device_.launch(trace_photons_, params.photon_count);
+    device_.launch_pass(trace_photons_, params.photon_count);
     const Counters counters = device_.download<Counters>(counters_, 1)[0];
     stored_ = std::min(counters.photons, capacity_);
     if (counters.photons <= capacity_) return counters;
@@ -94,6 +89,13 @@ void PhotonMap::sort(double cell) {
   grid_.photon_count = stored_;
   if (stored_ == 0) return;
 
+  if (!count_photons_()) {
+    count_photons_ = programs_.kernel("grid", "count_photons");
+    sum_segments_ = programs_.kernel("grid", "sum_segments");
+    scan_sums_ = programs_.kernel("grid", "scan_sums");
+    scan_segments_ = programs_.kernel("grid", "scan_segments");
+    move_photons_ = programs_.kernel("grid", "move_photons");
+  }
   const std::size_t buckets = static_cast<std::size_t>(n) * n * n;
   reserve_buckets(buckets);
   const std::size_t stride = (static_cast<std::size_t>(stored_) + 15) / 8 * 8;  // photon_stride of cl/grid.cl
@@ -104,15 +106,15 @@ void PhotonMap::sort(double cell) {
   }
   device_.clear(cursors_, buckets * sizeof(cl_uint));
   set_arguments(count_photons_, photons_, cursors_, grid_);
-  device_.launch(count_photons_, stored_);
+  device_.launch_pass(count_photons_, stored_);
   set_arguments(sum_segments_, cursors_, sums_, static_cast<cl_uint>(buckets));
-  device_.launch(sum_segments_, segments_of(buckets));
+  device_.launch_pass(sum_segments_, segments_of(buckets));
   set_arguments(scan_sums_, sums_, static_cast<cl_uint>(segments_of(buckets)));
-  device_.launch(scan_sums_, 1);
+  device_.launch_pass(scan_sums_, 1);
   set_arguments(scan_segments_, cursors_, sums_, starts_, static_cast<cl_uint>(buckets));
-  device_.launch(scan_segments_, segments_of(buckets));
+  device_.launch_pass(scan_segments_, segments_of(buckets));
   set_arguments(move_photons_, photons_, cursors_, sorted_, grid_);
-  device_.launch(move_photons_, stored_);
+  device_.launch_pass(move_photons_, stored_);
 }
 
 }  // namespace causticl

@@ -2,20 +2,22 @@
 #pragma once
 
 #include "integrator.hpp"
-#include "kernels.hpp"
+#include "programs.hpp"
 #include "upload.hpp"
 
 namespace causticl {
 
 class PhotonMap {
  public:
-  PhotonMap(const DeviceScene& scene, Device& device, const KernelOptions& kernels,
-            const cl::Buffer& counters);
+  PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters);
 
-  /// Traces params.photon_count photons of pass params.pass. Waits for the device, since only it knows how
-  /// many were stored; where the buffer was too small, it grows and the pass is traced again, to the same
-  /// photons. Where the device has no room for that, the photons beyond are dropped and counted. Returns the
-  /// counters as they were left.
+  /// Waits until the kernel that traces photons is built.
+  void prepare();
+
+  /// Only after prepare(). Traces params.photon_count photons of pass params.pass. Waits for the device,
+  /// since only it knows how many were stored; where the buffer was too small, it grows and the pass is
+  /// traced again, to the same photons. Where the device has no room for that, the photons beyond are dropped
+  /// and counted. Returns the counters as they were left.
   Counters trace(Params params);
 
   /// Enqueues the sort into cubes with edges of `cell` units.
@@ -31,9 +33,9 @@ class PhotonMap {
  private:
   const DeviceScene& scene_;
   Device& device_;
-  cl::Program photon_program_, grid_program_;
+  Programs& programs_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
-  cl_uint first_argument_;
+  cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record, traced or sorted
   cl::Buffer counters_, photons_, sorted_, cursors_, sums_, starts_;
   std::uint32_t capacity_ = 0, stored_ = 0;

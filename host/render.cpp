@@ -10,7 +10,9 @@
 #include "effects.hpp"
 #include "error.hpp"
 #include "error_watch.hpp"
+#include "passes.hpp"
 #include "path.hpp"
+#include "programs.hpp"
 #include "sppm.hpp"
 
 namespace causticl {
@@ -80,6 +82,43 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// What is known of each pass before it runs.
+std::vector<PassStatistics> pass_statistics(const std::vector<PassPlan>& plan,
+                                            const std::vector<ProgramBuild>& builds, const Effects& effects) {
+  std::vector<PassStatistics> result;
+  for (const auto& pass : plan) {
+    result.push_back({pass.name, pass.skipped, "", 0, 0});
+    for (const auto& build : builds)
+      if (build.pass == pass.name) {
+        result.back().effects = effect_keys(effects, build.effects);
+        result.back().build_seconds = build.seconds;
+      }
+  }
+  return result;
+}
+
+/// The launches since `before`, of this render alone.
+std::map<std::string, KernelTime> kernel_times_since(const std::map<std::string, KernelTime>& before,
+                                                     std::map<std::string, KernelTime> now) {
+  for (const auto& [name, time] : before) {
+    now[name].milliseconds -= time.milliseconds;
+    now[name].launches -= time.launches;
+  }
+  std::erase_if(now, [](const auto& entry) { return entry.second.launches == 0; });
+  return now;
+}
+
+/// The picture of a scene without light, by no pass at all.
+RenderResult black_picture(const Scene& scene, const RenderOptions& options, const Statistics& statistics) {
+  RenderResult result{{scene.width, scene.height, {}}, statistics};
+  result.picture.rgb.assign(
+      3 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
+  result.statistics.peak_memory_bytes = peak_memory();
+  for (const auto& file : options.outputs)
+    write_picture(file, result.picture, metadata_of(scene, options, statistics));
+  return result;
+}
+
 }  // namespace
 
 RenderResult render_scene(const Scene& scene, Device& device, const RenderOptions& options,
@@ -92,16 +131,28 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.device = device.info().name;
   statistics.precision = options.precision;
 
-  const KernelOptions kernels{chosen_effects(find_effects(scene), options.effects), options.precision,
+  const Effects effects = find_effects(scene);
+  const KernelOptions kernels{chosen_effects(effects, options.effects), options.precision,
                               options.triangle_test, options.kernel_dir, options.dump_kernels};
+  auto plan = plan_passes(scene);
+  if (!options.skip_passes)
+    for (auto& pass : plan) pass.skipped.clear();
+  if (passes_to_run(plan).empty()) {
+    statistics.pass_programs = pass_statistics(plan, {}, effects);
+    return black_picture(scene, options, statistics);
+  }
+  const auto kernels_before = device.kernel_times();
+  Programs programs(device, kernels, passes_to_run(plan));
   const DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
-  Film film(device, kernels, scene.width, scene.height);
+  Film film(device, programs, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;
   if (sppm) {
-    auto made = std::make_unique<Sppm>(scene, device_scene, device, film, kernels, options.seed);
+    const bool with_photons = why_skipped(plan, "photon").empty();
+    auto made =
+        std::make_unique<Sppm>(scene, device_scene, device, film, programs, options.seed, with_photons);
     statistics.first_radius = made->first_radius();
     statistics.first_radius_chosen = !scene.renderer.radius;
-    if (statistics.first_radius_chosen && notice) {
+    if (statistics.first_radius_chosen && with_photons && notice) {
       char text[128];
       std::snprintf(text, sizeof text, "first radius %.4g, chosen from the scene (renderer.radius sets it)",
                     statistics.first_radius);
@@ -109,10 +160,9 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     }
     integrator = std::move(made);
   } else {
-    integrator = std::make_unique<PathTracer>(scene, device_scene, device, film, kernels, options.seed);
+    integrator = std::make_unique<PathTracer>(scene, device_scene, device, film, programs, options.seed);
   }
   device.queue().finish();
-  statistics.first_pass_seconds = seconds_since(start);
 
   const auto wanted = static_cast<std::uint64_t>(sppm ? scene.renderer.passes : scene.renderer.samples);
   PassIntegrator::Totals totals;
@@ -146,7 +196,8 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     totals = integrator->finish();
     statistics.passes = pass + 1;
     const double elapsed = seconds_since(start);
-    const double this_pass = seconds_since(pass_start);
+    const double this_pass = seconds_since(pass_start) + (pass == 0 ? integrator->early_seconds() : 0);
+    if (pass == 0) statistics.first_pass_done_seconds = elapsed;
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
     watch.update(pass + 1);
@@ -190,14 +241,14 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
 
   if (watch.last() && watch.last()->error > 0)
     statistics.passes_to_half_error = watch.passes_until(watch.last()->error / 2, statistics.passes);
-  const double loop_seconds = std::max(seconds_since(loop_start), 1e-9);
+  const double loop_seconds = std::max(seconds_since(loop_start) + integrator->early_seconds(), 1e-9);
   statistics.rays = totals.rays;
   statistics.stored_photons = totals.photons_stored_last_pass;
   statistics.photons_per_second = static_cast<double>(totals.photons_emitted) / loop_seconds;
   statistics.rays_per_second = static_cast<double>(totals.rays) / loop_seconds;
   RenderResult result;
   result.picture = write(film.picture(statistics.passes));
-  statistics.kernel_build_seconds = device.build_seconds();
+  statistics.first_pass_seconds = std::chrono::duration<double>(integrator->began() - start).count();
   statistics.tree_build_seconds = device_scene.tree_build_seconds;
   statistics.triangles = device_scene.triangles;
   statistics.shapes = device_scene.shapes_count;
@@ -206,7 +257,13 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.device_bytes = device.allocated_bytes();
   statistics.peak_memory_bytes = peak_memory();
   statistics.bytes_per_pixel = Film::bytes_per_pixel + integrator->bytes_per_pixel();
-  statistics.kernels = device.kernel_times();
+  statistics.pass_programs = pass_statistics(plan, programs.builds(), effects);
+  statistics.kernels = kernel_times_since(kernels_before, device.kernel_times());
+  for (auto& pass : statistics.pass_programs) {
+    const auto kernel = statistics.kernels.find(main_kernel(pass.name));
+    if (kernel != statistics.kernels.end()) pass.launches = kernel->second.launches;
+    statistics.kernel_build_seconds += pass.build_seconds;
+  }
   result.statistics = statistics;
   return result;
 }

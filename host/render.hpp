@@ -30,6 +30,7 @@ struct RenderOptions {
   unsigned threads = 0;          // for the tree; 0: all of the machine
   std::string effects = "auto";  // --effects, as chosen_effects takes it
   std::string kernel_dir;        // --kernel-dir: read cl/ live; empty: the embedded sources
+  bool skip_passes = true;       // leave out the passes that cannot change the picture (plan_passes)
   std::string dump_kernels;      // --dump-kernels: folder that receives what was built; empty: none
 };
 
@@ -43,6 +44,15 @@ struct Progress {
   std::uint64_t photons = 0, rays = 0;  // so far
 };
 
+/// A pass and its program.
+struct PassStatistics {
+  std::string name;          // "photon" of cl/pass_photon.cl
+  std::string skipped;       // why it did not run; empty where it did
+  std::string effects;       // keys of those that its program was built for
+  double build_seconds = 0;  // in the background, until its kernels were ready
+  std::uint64_t launches = 0;
+};
+
 enum class StopReason { passes, time, error, interrupted };
 
 /// What a finished render reports (`--stats`, `--stats-json`, EXR metadata).
@@ -51,8 +61,10 @@ struct Statistics {
   Precision precision = Precision::float32;
   StopReason stop = StopReason::passes;
   double seconds = 0;             // all of render_scene
-  double first_pass_seconds = 0;  // from the start to the launch of the first pass
-  double kernel_build_seconds = 0;
+  double first_pass_seconds = 0;  // from the start until the first pass began on the device
+  double first_pass_done_seconds = 0;
+  double kernel_build_seconds = 0;  // of all programs
+  std::vector<PassStatistics> pass_programs;
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;  // estimated; none after a single pass and of a black picture

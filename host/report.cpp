@@ -55,6 +55,19 @@ std::string kernel_table(const std::map<std::string, KernelTime>& kernels) {
   return text;
 }
 
+std::string pass_table(const std::vector<PassStatistics>& passes) {
+  std::string text;
+  append(text, "  %-28s %12s %9s  %s\n", "pass", "build s", "launches", "built for");
+  for (const auto& pass : passes)
+    if (pass.skipped.empty())
+      append(text, "  %-28s %12.3f %9llu  %s\n", pass.name.c_str(), pass.build_seconds, Number(pass.launches),
+             pass.effects.empty() ? "every scene" : pass.effects.c_str());
+    else
+      append(text, "  %-28s %12s %9llu  %s\n", pass.name.c_str(), "skipped", Number(pass.launches),
+             pass.skipped.c_str());
+  return text;
+}
+
 }  // namespace
 
 std::string byte_size(double bytes) {
@@ -77,6 +90,7 @@ std::string statistics_table(const Statistics& s) {
            percentage(s.error->noise).c_str(), percentage(s.error->bias).c_str());
   append(text, "  %-28s %.3f s\n", "time", s.seconds);
   append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
+  append(text, "  %-28s %.3f s\n", "  until it was done", s.first_pass_done_seconds);
   append(text, "  %-28s %.3f s\n", "  building kernels", s.kernel_build_seconds);
   append(text, "  %-28s %.3f s\n", "  building the tree", s.tree_build_seconds);
   append(text, "  %-28s %llu triangles, %llu other shapes, %llu emitters\n", "scene", Number(s.triangles),
@@ -95,7 +109,7 @@ std::string statistics_table(const Statistics& s) {
          byte_size(static_cast<double>(s.peak_memory_bytes)).c_str());
   append(text, "  %-28s", "faults");
   for (const auto& kind : fault_kinds) append(text, " %s %llu", kind.key, Number(s.faults.*kind.count));
-  text += "\n\n" + kernel_table(s.kernels);
+  text += "\n\n" + pass_table(s.pass_programs) + "\n" + kernel_table(s.kernels);
 
   if (s.skipped_triangles)
     append(text, "warning: %llu triangles without area were left out\n", Number(s.skipped_triangles));
@@ -108,6 +122,13 @@ std::string statistics_json(const Statistics& s) {
     milliseconds[kernel] = time.milliseconds;
     launches[kernel] = time.launches;
   }
+  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+  for (const auto& pass : s.pass_programs)
+    passes.push_back({{"name", pass.name},
+                      {"skipped", pass.skipped},
+                      {"effects", pass.effects},
+                      {"build_seconds", pass.build_seconds},
+                      {"launches", pass.launches}});
   nlohmann::ordered_json object = {{"version", CAUSTICL_VERSION},
                                    {"device", s.device},
                                    {"precision", name_of(s.precision)},
@@ -118,6 +139,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"confidence", s.confidence},
                                    {"seconds", s.seconds},
                                    {"first_pass_seconds", s.first_pass_seconds},
+                                   {"first_pass_done_seconds", s.first_pass_done_seconds},
                                    {"kernel_build_seconds", s.kernel_build_seconds},
                                    {"tree_build_seconds", s.tree_build_seconds},
                                    {"passes", s.passes},
@@ -135,6 +157,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"device_bytes", s.device_bytes},
                                    {"peak_memory_bytes", s.peak_memory_bytes},
                                    {"bytes_per_pixel", s.bytes_per_pixel},
+                                   {"programs", passes},
                                    {"kernels", milliseconds},
                                    {"kernel_launches", launches}};
   if (s.error) {

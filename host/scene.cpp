@@ -1,5 +1,6 @@
 #include "scene.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 #include "error.hpp"
@@ -52,13 +53,7 @@ void read_integrator(const JsonReader& json, const SceneOptions& options, SceneL
 }
 
 void warn_without_light(const JsonReader& json, SceneLoader& loader) {
-  const Scene& scene = loader.scene;
-  for (const Object& object : scene.objects)
-    if (max_component(scene.materials[static_cast<std::size_t>(object.material)].emission) > 0) return;
-  for (const DeltaLight& light : scene.lights)
-    if (is_lit(light)) return;
-  if (scene.environment && is_lit(*scene.environment)) return;
-  loader.notice(json, "no light: the image will be black");
+  if (!has_light(loader.scene)) loader.notice(json, "no light: the image will be black");
 }
 
 }  // namespace
@@ -70,6 +65,15 @@ bool is_lit(const Environment& environment) {
   for (std::size_t i = 0; i < rgba.size(); ++i)
     if (i % 4 != 3 && rgba[i] > 0) return true;
   return false;
+}
+
+bool has_light(const Scene& scene) {
+  return (scene.environment && is_lit(*scene.environment)) ||
+         std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const DeltaLight& light) { return is_lit(light); }) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+           return max_component(scene.materials[static_cast<std::size_t>(object.material)].emission) > 0;
+         });
 }
 
 Scene load_scene(const std::string& file, const SceneOptions& options) {

@@ -122,6 +122,9 @@ struct Scene {
 bool is_lit(const DeltaLight& light);
 bool is_lit(const Environment& environment);
 
+/// Whether anything in the scene emits light.
+bool has_light(const Scene& scene);
+
 /// A `-D key=value` of the command line: `key` is a path of JSON keys joined by dots ("renderer.radius",
 /// "objects.3.radius"), `value` is JSON, or a string where it is not.
 struct Override {

@@ -10,21 +10,15 @@
 namespace causticl {
 
 Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-           const KernelOptions& kernels, std::uint32_t seed)
+           Programs& programs, std::uint32_t seed, bool with_photons)
     : spec_(scene.renderer),
       device_(device),
       film_(film),
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
-      photon_map_(device_scene, device, kernels, counters_),
-      camera_program_(build_pass(device, "camera", kernels)),
-      gather_program_(build_pass(device, "gather", kernels)),
-      trace_camera_(camera_program_, "trace_camera"),
-      gather_photons_(gather_program_, "gather_photons"),
-      count_around_(gather_program_, "count_around"),
-      start_pixels_(gather_program_, "start_pixels"),
-      first_argument_(set_scene_arguments(trace_camera_, device_scene)),
-      visible_point_bytes_(sizeof(VisiblePoint) * record_scale(kernels.precision)),
+      photon_map_(device_scene, device, programs, counters_),
+      with_photons_(with_photons && params_.emitter_count > 0),
+      visible_point_bytes_(sizeof(VisiblePoint) * record_scale(programs.options().precision)),
       smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
@@ -37,21 +31,39 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   visible_points_ =
       device_.buffer(chunk_pixels_ * params_.visible_points * visible_point_bytes_, "visible points");
   pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
+
+  // The first pass begins here, while programs that it needs later are still being built.
+  if (with_photons_) photon_map_.prepare();
+  began_ = Clock::now();
+  trace_photons(0);
+  early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
+  trace_camera_ = programs.kernel("camera", "trace_camera");
+  gather_photons_ = programs.kernel("gather", "gather_photons");
+  first_argument_ = set_scene_arguments(trace_camera_, device_scene);
   trace_camera_.setArg(first_argument_, visible_points_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
 
-  first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(device_scene.extent);
+  first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(programs, device_scene.extent);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
-  set_arguments(start_pixels_, pixels_, static_cast<cl_uint>(film_.pixels()),
+  cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
+  set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
-  device_.launch(start_pixels_, film_.pixels());
+  device_.launch_pass(start_pixels, film_.pixels());
 }
 
-/// The radius within which the median visible point of a coarse picture finds a dozen photons of one pass. In
-/// the Cornell box the error of 90% of the pixels is then smallest after 32 to 128 passes; with forty it
-/// takes twice as many passes to the same error, since corners stay dark for long.
-double Sppm::choose_first_radius(double extent) {
+/// Traces the photons of the pass, unless that has been done.
+void Sppm::trace_photons(std::uint32_t pass) {
+  if (!with_photons_ || traced_pass_ == pass) return;
+  params_.pass = pass;
+  totals_.update(photon_map_.trace(params_));
+  traced_pass_ = pass;
+}
+
+/// The radius within which the median visible point of a coarse picture finds a dozen photons of the first
+/// pass. In the Cornell box the error of 90% of the pixels is then smallest after 32 to 128 passes; with
+/// forty it takes twice as many passes to the same error, since corners stay dark for long.
+double Sppm::choose_first_radius(Programs& programs, double extent) {
   constexpr double wanted = 12;
   constexpr uint longest_side = 64;
   Params params = params_;
@@ -61,20 +73,20 @@ double Sppm::choose_first_radius(double extent) {
   params.visible_points = 1;
   params.pixel_count = static_cast<uint>(std::min<std::size_t>(
       static_cast<std::size_t>(params.width) * params.height, chunk_pixels_ * params_.visible_points));
-  photon_map_.trace(params);
   const double fallback = 0.01 * extent;
   double radius = fallback;
   if (photon_map_.stored() == 0) return radius;
   trace_camera_.setArg(first_argument_ + 2, params);
-  device_.launch(trace_camera_, params.pixel_count);
+  device_.launch_pass(trace_camera_, params.pixel_count);
 
+  cl::Kernel count_around = programs.kernel("gather", "count_around");
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
     photon_map_.sort(2 * radius);
-    set_arguments(count_around_, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
+    set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
                   photon_map_.grid(), params);
-    device_.launch(count_around_, params.pixel_count);
+    device_.launch_pass(count_around, params.pixel_count);
     auto found = device_.download<cl_uint>(counts, params.pixel_count);
     std::erase(found, 0xffffffffu);  // COUNT_NOTHING of cl/pass_gather.cl
     if (found.empty()) return radius;
@@ -103,11 +115,11 @@ void Sppm::advance_schedule(std::uint32_t pass) {
 }
 
 void Sppm::enqueue_pass(std::uint32_t pass) {
+  trace_photons(pass);
   params_.pass = pass;
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
-  totals_.update(photon_map_.trace(params_));
-  emitted_ += params_.emitter_count ? params_.photon_count : 0;
+  emitted_ += with_photons_ ? params_.photon_count : 0;
   photon_map_.sort(2 * std::sqrt(schedule_radius2_));
 
   const std::size_t pixels = film_.pixels();
@@ -115,10 +127,11 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, pixels - first));
     trace_camera_.setArg(first_argument_ + 2, params_);
-    device_.launch(trace_camera_, static_cast<std::size_t>(params_.pixel_count) * params_.visible_points);
+    device_.launch_pass(trace_camera_,
+                        static_cast<std::size_t>(params_.pixel_count) * params_.visible_points);
     set_arguments(gather_photons_, visible_points_, pixels_, film_.buffer(), photon_map_.starts(),
                   photon_map_.sorted(), counters_, photon_map_.grid(), params_);
-    device_.launch(gather_photons_, params_.pixel_count);
+    device_.launch_pass(gather_photons_, params_.pixel_count);
   }
   advance_schedule(pass);
 }

@@ -5,7 +5,6 @@
 
 #include "film.hpp"
 #include "integrator.hpp"
-#include "kernels.hpp"
 #include "photon_map.hpp"
 #include "upload.hpp"
 
@@ -13,8 +12,9 @@ namespace causticl {
 
 class Sppm : public PassIntegrator {
  public:
-  Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-       const KernelOptions& kernels, std::uint32_t seed);
+  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture.
+  Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
+       std::uint32_t seed, bool with_photons);
 
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
@@ -31,9 +31,10 @@ class Sppm : public PassIntegrator {
   Params params_;
   cl::Buffer counters_;
   PhotonMap photon_map_;
-  cl::Program camera_program_, gather_program_;
-  cl::Kernel trace_camera_, gather_photons_, count_around_, start_pixels_;
-  cl_uint first_argument_;
+  bool with_photons_;
+  std::optional<std::uint32_t> traced_pass_;  // whose photons are in the map
+  cl::Kernel trace_camera_, gather_photons_;
+  cl_uint first_argument_ = 0;
   std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer visible_points_, pixels_;
   CounterTotals totals_;
@@ -42,7 +43,8 @@ class Sppm : public PassIntegrator {
   double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
-  double choose_first_radius(double extent);
+  void trace_photons(std::uint32_t pass);
+  double choose_first_radius(Programs& programs, double extent);
   void advance_schedule(std::uint32_t pass);
 };
 
