@@ -4,6 +4,7 @@
 
 #include "compare.hpp"
 #include "error.hpp"
+#include "explain.hpp"
 #include "interruption.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
@@ -43,6 +44,21 @@ int render(const Options& options) {
   if (options.stats) std::fputs(statistics_table(result.statistics).c_str(), stdout);
   if (!options.stats_json.empty()) write_file(options.stats_json, statistics_json(result.statistics));
   return result.statistics.stop == StopReason::interrupted ? interrupted : done;
+}
+
+int explain(const Options& options) {
+  if (!options.json.empty()) check_writable(options.json);
+  const Scene scene = load_scene(options.scene, options.scene_options);
+  Explanation explanation = explain(scene);
+  if (options.measure) {
+    Device device(find_device(options.device), options.threads);
+    measure_effects(explanation, scene, device, render_options(options, {}), [](const std::string& effect) {
+      std::fprintf(stderr, "causticl: measuring %s\n", effect.c_str());
+    });
+  }
+  std::fputs(explanation_table(explanation).c_str(), stdout);
+  if (!options.json.empty()) write_file(options.json, explanation_json(explanation));
+  return done;
 }
 
 int selftest(const Options& options) {
@@ -86,6 +102,8 @@ int run(const Options& options) {
       return render(options);
     case Options::Command::devices:
       return print(device_list(list_devices()));
+    case Options::Command::explain:
+      return explain(options);
     case Options::Command::info:
       return print(scene_summary(load_scene(options.scene, options.scene_options)));
     case Options::Command::compare:

@@ -215,6 +215,15 @@ void add_selftest_options(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
+/// What explaining a scene adds to reading it.
+void add_explain_options(CLI::App& app, Options& options) {
+  app.add_flag("--measure", options.measure,
+               "render it small, with and without each effect, and say\n"
+               "what each costs on this device")
+      ->disable_flag_override();
+  app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
+}
+
 /// Two pictures and where their difference goes.
 void add_compare_options(CLI::App& app, Options& options) {
   app.add_option("PICTURE", options.picture, "what was rendered: .exr, .pfm or .png")
@@ -276,6 +285,14 @@ Options parse_options(int argc, const char* const* argv) {
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
   add_scene_options(info, options, texts);
+  CLI::App& explain =
+      *app.add_subcommand("explain", "Say which effects a scene calls for, and what they cost");
+  add_scene_options(explain, options, texts);
+  add_explain_options(explain, options);
+  add_device_options(explain, options);
+  explain.footer(
+      "A cost is the time of all kernels over that without the effect: the median of five pairs of\n"
+      "renders and half the distance of the quartiles. Without --measure no device is asked for.");
   CLI::App& compare = *app.add_subcommand("compare", "Say how far a picture is from a reference");
   add_compare_options(compare, options);
   CLI::App& selftest = *app.add_subcommand("selftest", "Check the numerics of the kernels on this device");
@@ -300,6 +317,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.command = render.parsed()    ? Options::Command::render
                     : devices.parsed() ? Options::Command::devices
                     : info.parsed()    ? Options::Command::info
+                    : explain.parsed() ? Options::Command::explain
                     : compare.parsed() ? Options::Command::compare
                                        : Options::Command::selftest;
   options.selftest.threads = options.threads;

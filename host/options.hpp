@@ -14,11 +14,11 @@
 namespace causticl {
 
 struct Options {
-  enum class Command { render, compare, devices, info, selftest, print };
+  enum class Command { render, compare, devices, explain, info, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
-  std::string scene;  // file; render and info
+  std::string scene;  // file; render, explain and info
   SceneOptions scene_options;
 
   std::vector<std::string> outputs;  // empty: the scene says
@@ -41,7 +41,8 @@ struct Options {
   std::string error_map;           // file; empty: none
 
   SelftestOptions selftest;
-  std::string json;  // file for what selftest or compare found; empty: none
+  bool measure = false;  // explain
+  std::string json;      // file for what explain, selftest or compare found; empty: none
 };
 
 /// Reads the command line. Throws UserError, of one line, for whatever is not understood.
