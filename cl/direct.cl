@@ -19,6 +19,17 @@ INLINE bool shadowed(const Scene *scene, Ray shadow, LightSample light, uint *ra
   return occluded;
 }
 
+// What glass or the medium leaves of a light's radiance along the shadow ray from `surface`: `interior` is that of the
+// segment by which the path came.
+INLINE void attenuate_light(const Scene *scene, Interior interior, const Surface *surface, LightSample *light) {
+  if (!HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) return;
+  interior = interior_after(interior, scene->materials + surface->material, surface, light->direction);
+  if (HAS(EFFECT_MEDIUM) && !interior.glass)
+    light->weight *= transmittance(scene->medium.extinction, light->distance);
+  else
+    light->weight *= interior_transmittance(interior, light->distance);
+}
+
 // A light sample for a point with a rough lobe. Glass is lit from both sides: where the direction from one side's
 // origin leads to the other, it is drawn again, by the same numbers, from the origin there.
 INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 facing,
@@ -34,8 +45,8 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
 }
 
 // Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling.
-static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n,
-                                real3 throughput, real4 random, uint *rays,
+static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
+                                real3 arriving, real3 n, real3 throughput, real4 random, uint *rays,
                                 volatile global Counters *counters) {
   real3 g = surface->geometric_normal, origin;
   LightSample light = light_sample_rough(scene, bsdf, surface, dot(arriving, g) < 0 ? g : -g, random, &origin);
@@ -44,14 +55,15 @@ static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surf
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
   if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  attenuate_light(scene, interior, surface, &light);
   return throughput * lobe.weight * light.weight * (lobe.pdf * power_weight(light.pdf, lobe.pdf));
 }
 
 // Reflected radiance from one emitter at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes
 // its share of what arrives) with facing normal n. `arriving` is the direction of the path that found the point.
 // With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
-static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n,
-                          real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
+static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
+                          real3 arriving, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
                           volatile global Counters *counters) {
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
@@ -64,6 +76,7 @@ static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *s
   if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
   if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  attenuate_light(scene, interior, surface, &light);
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
@@ -76,6 +89,20 @@ INLINE real3 escaped_radiance(const Scene *scene, real3 direction, real bsdf_pdf
   real pdf;
   real3 radiance = environment_radiance(scene, direction, &pdf);
   return bsdf_pdf > 0 ? radiance * power_weight(bsdf_pdf, pdf) : radiance;
+}
+
+// Radiance from one emitter that the medium at `position` scatters to a path that arrives along `arriving`;
+// `throughput` includes the scattering coefficient. With `weigh_phase`, the sample is weighted against sampling of the
+// phase function by the power heuristic.
+static real3 direct_light_medium(const Scene *scene, real3 position, real3 arriving, real3 throughput, real4 random,
+                                 bool weigh_phase, uint *rays, volatile global Counters *counters) {
+  LightSample light = light_sample(scene, position, random);
+  if (!(max_component(light.weight * throughput) > 0)) return (real3)(0, 0, 0);
+  Ray shadow = {position, light.direction};
+  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  real phase = phase_density(scene->medium.g, dot(light.direction, arriving));
+  real weight = weigh_phase ? power_weight(light.pdf, phase) : 1;
+  return throughput * light.weight * transmittance(scene->medium.extinction, light.distance) * (phase * weight);
 }
 
 // What radiance that a BSDF sample found at an emissive surface counts for beside light sampling; bsdf_pdf is the

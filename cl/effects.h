@@ -22,7 +22,12 @@
 #define EFFECT_ENVIRONMENT (1u << 13)   // light from beyond the scene
 #define EFFECT_DELTA_LIGHTS (1u << 14)  // point, spot and directional lights
 
-#define EFFECT_ALL ((1u << 15) - 1u)
+#define EFFECT_ABSORPTION (1u << 15) // glass that absorbs
+#define EFFECT_DISPERSION (1u << 16) // glass whose index depends on the wavelength
+#define EFFECT_MOTION (1u << 17)     // objects that move while the shutter is open
+#define EFFECT_MEDIUM (1u << 18)     // a medium that fills the scene
+
+#define EFFECT_ALL ((1u << 19) - 1u)
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)
 #endif

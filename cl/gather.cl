@@ -1,5 +1,6 @@
 // Finding the photons around a point: exact integer sums, eight photons at a time.
 #include "grid.cl"
+#include "medium.cl"
 
 // Photons whose surface leans away by more than this cosine lie on another wall.
 #define GATHER_NORMAL_COSINE 0.5f
@@ -37,6 +38,7 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
       real8 distance2 = dx * dx + dy * dy + dz * dz;
       int8 inside =
           mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE) & (lane < (uint8)(stop - i));
+      if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, words + stride + i) & keep, b = vload8(0, words + 2 * stride + i) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
@@ -59,6 +61,44 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
   }
 }
 
+// The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
+#define PHASE_UNIT 16777216.0f
+
+// Adds the photons sorted[begin, end) within sqrt(radius2) of `point` in the medium, each times the phase function for
+// light that is turned to `direction`, in units of phase_density(g, +-1) / PHASE_UNIT. Those within half the radius
+// are also summed alone.
+INLINE void gather_range_medium(global const uint *sorted, uint stride, uint begin, uint end, real3 point,
+                                real3 direction, real g, real radius2, Gathered *sum) {
+  global const real *xs = (global const real *)sorted;
+  global const uint *words = photon_words(sorted, stride);
+  real peak = phase_density(g, g < 0 ? -1 : 1);
+  for (uint i = begin; i < end; ++i) {
+    real3 d = (real3)(xs[i], xs[stride + i], xs[2 * stride + i]) - point;
+    uint packed = words[i];
+    if (!(dot(d, d) <= radius2) || !(packed & IN_MEDIUM)) continue;
+    real share = phase_density(g, dot(direction_unpack(packed), direction)) / peak;
+    ulong parts = (ulong)(fmin(share, (real)1) * PHASE_UNIT + (real)0.5);
+    uint red_green = words[stride + i];
+    ulong red = parts * (red_green & 0xffffu), green = parts * (red_green >> 16);
+    ulong blue = parts * words[2 * stride + i];
+    sum->red += red;
+    sum->green += green;
+    sum->blue += blue;
+    ++sum->count;
+    if (!(dot(d, d) <= radius2 / 4)) continue;
+    sum->near_red += red;
+    sum->near_green += green;
+    sum->near_blue += blue;
+  }
+}
+
+// The squared radius of the sphere of the medium that goes with discs of radius2: its volume shrinks as their area
+// does, as the theory wants for either (Knaus & Zwicker 2011), from the same first radius.
+INLINE real medium_radius2(real radius2, real first_radius) {
+  real radius = cbrt(radius2 * first_radius);
+  return radius * radius;
+}
+
 // The cubes along one axis that can hold a photon within `radius` of x: *first bucket and their number, at
 // most n. The interval is widened by the rounding of its ends.
 INLINE uint gather_window(real x, real radius, float origin, float inverse_cell, uint n, uint *first) {
@@ -69,11 +109,10 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
   return span >= n ? n : span + 1;
 }
 
-// Sums over all photons within sqrt(radius2) of `point`, and over those within half that radius: what the two say
-// differently of the density is a measure of how much the larger one blurs. Each bucket is visited once: a window of at most n
-// cubes along an axis of n buckets has no two cubes in one bucket.
-OUTLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
-                       real radius2) {
+// Calls gather_range, or gather_range_medium where `in_medium`, for every bucket that may hold a photon within
+// sqrt(radius2) of `point`, once: a window of at most n cubes along an axis of n buckets has no two in one bucket.
+OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const uint *sorted, real3 point,
+                                float3 normal, real radius2, bool in_medium, real3 direction, real g) {
   Gathered sum = {0, 0, 0, 0, 0, 0, 0};
   real radius = sqrt(radius2);
   uint stride = photon_stride(grid.photon_count);
@@ -88,9 +127,27 @@ OUTLINE Gathered gather(Grid grid, global const uint *starts, global const uint 
     for (uint j = 0; j < nj; ++j) {
       uint jj = j0 + j >= grid.ny ? j0 + j - grid.ny : j0 + j;
       global const uint *row = starts + (kk * grid.ny + jj) * grid.nx;
-      gather_range(sorted, stride, row[i0], row[first_end], point, normal, radius2, &sum);
-      if (wrapped != 0) gather_range(sorted, stride, row[0], row[wrapped], point, normal, radius2, &sum);
+      for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
+        uint begin = part == 0 ? row[i0] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
+        if (HAS(EFFECT_MEDIUM) && in_medium)
+          gather_range_medium(sorted, stride, begin, end, point, direction, g, radius2, &sum);
+        else
+          gather_range(sorted, stride, begin, end, point, normal, radius2, &sum);
+      }
     }
   }
   return sum;
+}
+
+// Sums over all photons on surfaces within sqrt(radius2) of `point`, and over those within half that
+// radius: what the two say differently of the density is a measure of how much the larger one blurs.
+INLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
+                       real radius2) {
+  return gather_buckets(grid, starts, sorted, point, normal, radius2, false, (real3)(0, 0, 0), 0);
+}
+
+// The same in the medium, see gather_range_medium.
+INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const uint *sorted, real3 point,
+                              real3 direction, real g, real radius2) {
+  return gather_buckets(grid, starts, sorted, point, (float3)(0, 0, 0), radius2, true, direction, g);
 }

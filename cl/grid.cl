@@ -32,6 +32,21 @@ INLINE float3 normal_unpack(uint packed) {
   return convert_float3(q) * (1.0f / 127.0f);
 }
 
+// A unit direction in 30 bits, by the octahedron (Cigolle et al., "A Survey of Efficient Representations for
+// Independent Unit Vectors", JCGT 2014), under the mark IN_MEDIUM.
+INLINE uint direction_pack(real3 d) {
+  real2 p = d.xy / (fabs(d.x) + fabs(d.y) + fabs(d.z));
+  if (d.z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
+  uint2 q = convert_uint2_sat_rte((p + 1) * (real)16383.5);
+  return IN_MEDIUM | min(q.x, 32767u) | min(q.y, 32767u) << 15;
+}
+INLINE real3 direction_unpack(uint packed) {
+  real2 p = (real2)(packed & 32767u, packed >> 15 & 32767u) / (real)16383.5 - 1;
+  real z = 1 - fabs(p.x) - fabs(p.y);
+  if (z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
+  return normalize((real3)(p.x, p.y, z));
+}
+
 // The sorted photons are six arrays: positions as real x, y, z, then words of normal, flux_rg, flux_b. The distance
 // between two of them leaves room to read eight at a time past the last.
 INLINE uint photon_stride(uint photon_count) { return (photon_count + 15u) & ~7u; }

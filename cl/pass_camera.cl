@@ -1,4 +1,5 @@
-// Camera paths of SPPM: from the lens by mirrors, glass and rough lobes to the first diffuse surface.
+// Camera paths of SPPM: from the lens by mirrors, glass and rough lobes to the first diffuse surface, or to where the
+// medium interacts with them first.
 #include "camera.cl"
 #include "direct.cl"
 #include "grid.cl"
@@ -23,11 +24,26 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
+  Interior interior = interior_none();
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
+    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
+      real distance;
+      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
+        if (depth == params->max_depth) break;
+        real3 position = ray.origin + distance * ray.direction;
+        if (shadow_rays)
+          radiance += direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
+                                          random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
+        point.normal = direction_pack(-ray.direction);
+        vstore3(position, 0, point.position);
+        vstore3(throughput, 0, point.weight);
+        break;
+      }
+    }
     if (!met) {
       if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
       break;
@@ -35,6 +51,10 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+      interior = interior_before(interior, material, &surface, ray.direction);
+      throughput *= interior_transmittance(interior, hit.t);
+    }
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
@@ -43,6 +63,8 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    if (HAS(EFFECT_DISPERSION))
+      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
     real4 random = random_at(stream, depth, DIM_BSDF);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
@@ -51,7 +73,7 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
       if (shadow_rays)
-        radiance += direct_light(scene, &bsdf, &surface, ray.direction, n, weight,
+        radiance += direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
                                  random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
       point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
@@ -64,13 +86,14 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
     bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf);
     if (weigh_lights) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light_rough(scene, &bsdf, &surface, ray.direction, n, throughput,
+      radiance += direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
                                      random_at(stream, depth, DIM_LIGHT), &rays, counters);
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     bsdf_pdf = weigh_lights ? next.pdf : 0;
     throughput *= next.weight;
     if (!path_survives(&throughput, depth, random.w)) break;
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }

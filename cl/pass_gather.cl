@@ -10,11 +10,15 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
   uint i = get_global_id(0);
   if (i >= params.pixel_count * params.visible_points) return;
   VisiblePoint point = visible_points[i];
-  bool diffuse = point.weight[0] + point.weight[1] + point.weight[2] > 0;
-  photon_counts[i] = diffuse ? gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal),
-                                      params.radius2)
-                                   .count
-                             : COUNT_NOTHING;
+  real3 position = vload3(0, point.position);
+  if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0))
+    photon_counts[i] = COUNT_NOTHING;
+  else if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM))
+    photon_counts[i] = gather_medium(grid, starts, sorted, position, direction_unpack(point.normal),
+                                     params.extinction.w, medium_radius2(params.radius2, params.first_radius))
+                           .count;
+  else
+    photon_counts[i] = gather(grid, starts, sorted, position, normal_unpack(point.normal), params.radius2).count;
 }
 
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
@@ -29,12 +33,24 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   SppmPixel pixel = pixels[index];
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
+  real3 scattered = (real3)(0, 0, 0), scattered_near = (real3)(0, 0, 0);
   uint found = 0;
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
     radiance += vload3(0, point.radiance);
     real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
+    if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM)) {
+      real g = params.extinction.w, sphere2 = medium_radius2(radius2, params.first_radius);
+      Gathered sum = gather_medium(grid, starts, sorted, vload3(0, point.position), direction_unpack(point.normal), g,
+                                   sphere2);
+      real peak = phase_density(g, g < 0 ? -1 : 1), volume = 4 * PI / 3 * sphere2 * sqrt(sphere2);
+      weight *= params.photon_flux / (PHOTON_FLUX_UNIT * PHASE_UNIT) * peak / volume;
+      scattered += weight * (real3)(sum.red, sum.green, sum.blue);
+      scattered_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
+      found = add_sat(found, sum.count);
+      continue;
+    }
     Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);
     reflected_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
@@ -43,6 +59,11 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
   if (found > 0) radiance += reflected * density;
+  if (HAS(EFFECT_MEDIUM)) {
+    // A sphere of half the radius has an eighth of the volume; its bias is a quarter of the whole's, as that of discs.
+    radiance += scattered;
+    blur += (scattered - 8 * scattered_near) / params.visible_points;
+  }
   film_add(film + index, radiance / params.visible_points, luminance(blur.x, blur.y, blur.z), params.pass, counters);
   if (params.radius2 > 0) return;
   pixels[index] = sppm_update(pixel, found, params.alpha);

@@ -8,11 +8,30 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
                             volatile global Counters *counters) {
   real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
+  Interior interior = interior_none();
   for (uint depth = 0; depth <= max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++*rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
+    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
+      real distance;
+      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
+        if (depth == max_depth) break;
+        real3 position = ray.origin + distance * ray.direction;
+        throughput *= scene->medium.scattering;
+        if (scene->emitter_count > 0)
+          radiance += direct_light_medium(scene, position, ray.direction, throughput,
+                                          random_at(stream, depth, DIM_LIGHT), true, rays, counters);
+        real4 random = random_at(stream, depth, DIM_BSDF);
+        if (!path_survives(&throughput, depth, random.w)) break;
+        real3 direction = phase_sample(scene->medium.g, ray.direction, random.xy);
+        bsdf_pdf = phase_density(scene->medium.g, dot(ray.direction, direction));
+        ray.origin = position;
+        ray.direction = direction;
+        continue;
+      }
+    }
     if (!met) {
       if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
       break;
@@ -20,6 +39,10 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+      interior = interior_before(interior, material, &surface, ray.direction);
+      throughput *= interior_transmittance(interior, hit.t);
+    }
 
     real3 emission = emission_at(material, &surface, ray.direction);
     if (max_component(emission) > 0) {
@@ -31,23 +54,27 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    if (HAS(EFFECT_DISPERSION))
+      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
     real4 random = random_at(stream, depth, DIM_BSDF);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light(scene, &bsdf, &surface, ray.direction, n, throughput * bsdf.color * INV_PI,
-                               random_at(stream, depth, DIM_LIGHT), true, rays, counters);
+      radiance += direct_light(scene, &bsdf, &surface, interior, ray.direction, n,
+                               throughput * bsdf.color * INV_PI, random_at(stream, depth, DIM_LIGHT), true,
+                               rays, counters);
     }
     if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light_rough(scene, &bsdf, &surface, ray.direction, n, throughput,
+      radiance += direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
                                      random_at(stream, depth, DIM_LIGHT), rays, counters);
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
     if (!path_survives(&throughput, depth, random.w)) break;
     bsdf_pdf = next.pdf;
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }

@@ -1,4 +1,5 @@
-// Photon paths: from an emitter through the scene, stored at every diffuse surface they land on.
+// Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
+// medium scatters them.
 #include "direct.cl"
 #include "grid.cl"
 
@@ -15,8 +16,29 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
 // More photons than any buffer holds need not be told apart, and a count that wrapped around would pass for few.
 #define PHOTON_COUNT_LIMIT 0x80000000u
 
-// Traces photon number `index` of the pass. Photons are appended in any order; where the buffer is
-// full they are only counted, so that the host can enlarge it and trace the pass again.
+// Appends a photon, whose `flux` is relative to Params.photon_flux; where the buffer is full it is only counted.
+INLINE void photon_store(global Photon *photons, uint capacity, real3 position, uint normal, real3 flux, real4 dither,
+                         volatile global Counters *counters) {
+  bool saturated = false;
+  uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
+       b = flux_quantise(flux.z, dither.z, &saturated);
+  if (saturated) atomic_inc(&counters->saturated);
+  if (!isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z)) {
+    atomic_inc(&counters->non_finite);
+    return;
+  }
+  uint slot = atomic_inc(&counters->photons);
+  if (slot >= PHOTON_COUNT_LIMIT) atomic_dec(&counters->photons);
+  if (slot >= capacity) return;
+  global Photon *photon = photons + slot;
+  vstore3(position, 0, photon->position);
+  photon->normal = normal;
+  photon->flux_rg = r | g << 16;
+  photon->flux_b = b;
+}
+
+// Traces photon number `index` of the pass. Photons are appended in any order; those that find the buffer full are
+// counted, so that the host can enlarge it and trace the pass again.
 OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, global Photon *photons,
                          volatile global Counters *counters) {
   RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, index};
@@ -25,52 +47,62 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
   Ray ray = photon_emit(scene, stream, &flux);
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
+  Interior interior = interior_none();
   for (uint depth = 0; depth < params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     if (!(max_component(flux) > 0)) break;
     ++rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
+    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
+      real before = max_component(flux), distance;
+      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &flux, &distance)) {
+        flux *= scene->medium.scattering;
+        real3 position = ray.origin + distance * ray.direction;
+        if (!(shadow_rays && depth == 0))
+          photon_store(photons, params->photon_capacity, position, direction_pack(ray.direction), flux,
+                       random_at(stream, depth, DIM_QUANTISE), counters);
+        if (depth + 1 == params->max_depth) break;
+        real4 random = random_at(stream, depth, DIM_BSDF);
+        real survival = fmin(max_component(flux) / before, (real)1);
+        if (random.w >= survival) break;
+        flux /= survival;
+        ray.origin = position;
+        ray.direction = phase_sample(scene->medium.g, ray.direction, random.xy);
+        continue;
+      }
+    }
     if (!met) break;
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
-    Bsdf bsdf = bsdf_at(scene->materials + surface.material, scene->textures, scene->texels, surface.uv);
+    global const Material *material = scene->materials + surface.material;
+    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    if (HAS(EFFECT_DISPERSION))
+      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &flux);
     real3 n = facing_normal(&surface, ray.direction);
     real4 random = random_at(stream, depth, DIM_BSDF);
 
     real before = max_component(flux);
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+      interior = interior_before(interior, material, &surface, ray.direction);
+      flux *= interior_transmittance(interior, hit.t);
+    }
 
     bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC;
     if (bsdf.kind == MATERIAL_DIFFUSE || plastic) {
       // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more.
       // Only where all is black, as on most lamps, are they of no use.
-      global const Material *material = scene->materials + surface.material;
       bool black = material->color_texture == 0 && !(max_component(bsdf.color) > 0);
       if (black && !plastic) break;
       // With shadow rays the light that arrives straight from an emitter is counted there.
       if (!(shadow_rays && depth == 0) && !black) {
         real3 landed = flux * shading_normal_arrival(&surface, ray.direction);
         if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
-        real4 dither = random_at(stream, depth, DIM_QUANTISE);
-        bool saturated = false;
-        uint r = flux_quantise(landed.x, dither.x, &saturated), g = flux_quantise(landed.y, dither.y, &saturated),
-             b = flux_quantise(landed.z, dither.z, &saturated);
-        if (saturated) atomic_inc(&counters->saturated);
-        if (isfinite(landed.x + landed.y + landed.z + surface.position.x + surface.position.y + surface.position.z)) {
-          uint slot = atomic_inc(&counters->photons);
-          if (slot >= PHOTON_COUNT_LIMIT) atomic_dec(&counters->photons);
-          if (slot < params->photon_capacity) {
-            bool front = dot(surface.geometric_normal, ray.direction) < 0;
-            global Photon *photon = photons + slot;
-            vstore3(surface.position, 0, photon->position);
-            photon->normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
-            photon->flux_rg = r | g << 16;
-            photon->flux_b = b;
-          }
-        } else {
-          atomic_inc(&counters->non_finite);
-        }
+        bool front = dot(surface.geometric_normal, ray.direction) < 0;
+        photon_store(photons, params->photon_capacity, surface.position,
+                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal), landed,
+                     random_at(stream, depth, DIM_QUANTISE), counters);
       }
     }
     if (depth + 1 == params->max_depth) break;
@@ -86,6 +118,7 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
     real survival = fmin(max_component(flux) / before, (real)1);
     if (random.w >= survival) break;
     flux /= survival;
+    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }

@@ -1,6 +1,8 @@
 // All that a path can meet, as one value: geometry, materials, textures and emitters.
-#include "bsdf.cl"
+#include "dispersion.cl"
 #include "geometry.cl"
+#include "interior.cl"
+#include "medium.cl"
 
 typedef struct {
   Geometry geometry;
@@ -11,6 +13,8 @@ typedef struct {
   global const EnvironmentTexel *environment;
   uint emitter_count;
   float emitter_density;
+  real3 inverse_wavelength2;  // of each channel, in um^-2
+  Medium medium;
 } Scene;
 
 // Every kernel that traces takes these and begins with SCENE_INIT(params).
@@ -20,5 +24,17 @@ typedef struct {
       global const EnvironmentTexel *environment
 #define SCENE_INIT(params)                                                                            \
   GEOMETRY_INIT((params).plane_count)                                                                 \
-  Scene scene = {geometry, materials, textures, texels, emitters, environment,                        \
-                 (params).emitter_count, (params).emitter_density}
+  Scene scene = {geometry, materials, textures, texels, emitters, environment,                                  \
+                 (params).emitter_count, (params).emitter_density,                                                    \
+                 (real3)((params).inverse_wavelength2[0], (params).inverse_wavelength2[1],                            \
+                         (params).inverse_wavelength2[2]),                                                            \
+                 {convert_real3((params).extinction.xyz), convert_real3((params).scattering.xyz),                     \
+                  (params).extinction.w}}
+
+// Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
+INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {
+  if (!met) return !interior.glass;
+  Surface surface;
+  geometry_surface(&scene->geometry, ray, hit, &surface);
+  return !interior_before(interior, scene->materials + surface.material, &surface, ray.direction).glass;
+}

@@ -57,12 +57,13 @@ typedef struct {
   float4 color;        // reflectance; w: index of refraction inside / outside
   float4 emission;     // emitted radiance
   float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside
+  float4 absorption;   // glass: per unit length inside; w: Cauchy's B in um^2 / index outside, 0 without dispersion
   uint kind;           // MATERIAL_DIFFUSE ...
   uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE
   uint color_texture;  // 1 + index into textures, 0 for none: then replaces `color`
   float alpha;         // GGX width of a rough lobe
 } Material;
-CHECK_SIZE(Material, 80);
+CHECK_SIZE(Material, 96);
 
 #define TEXTURE_IMAGE 0u
 #define TEXTURE_CHECKER 1u
@@ -208,11 +209,15 @@ typedef struct {
   uint photon_capacity;      // stored at most
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
+  float inverse_wavelength2[3];  // 1 / wavelength^2 in um^-2 that each channel stands for in this pass
+  float first_radius;        // of the search
+  float4 extinction;         // of the medium, absorption + scattering per unit length; w: Henyey & Greenstein's g
+  float4 scattering;         // of the medium, per unit length
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
   uint delta_lights;         // how many of the emitters are point, spot and directional lights
   uint unused[2];
 } Params;
-CHECK_SIZE(Params, 176);
+CHECK_SIZE(Params, 224);
 
 // What SPPM keeps of a pixel between passes besides the film: its squared radius as an unevaluated sum
 // hi + lo, and the number of all photons found so far, as two halves. N of the paper is alpha times that.
@@ -241,22 +246,28 @@ typedef struct {
 } PixelError;
 CHECK_SIZE(PixelError, 12);
 
+// The mark of visible points and photons that lie in the medium: their `normal` holds a direction (direction_pack).
+#define IN_MEDIUM 0x80000000u
+
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
-// found around the point it is reflected radiance at the camera. A path that met none has weight 0.
+// found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium,
+// `weight` is throughput / density of the distance: times the density of scattered flux and the phase function it is
+// radiance at the camera.
 typedef struct {
   real position[3];
-  uint normal;         // normal_pack, facing the camera path
+  uint normal;         // normal_pack, facing the camera path; in the medium, back along it
   real weight[3];
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;
 
-// A photon that landed on a diffuse surface, as traced. Flux is quantised with unbiased dithering in units of
-// Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order. Sixteen bits hold 16
-// times the flux of an emitted photon, which is as far as the factors of shading normals go.
+// A photon that landed on a diffuse surface, or that the medium scatters, as traced. Flux is quantised with unbiased
+// dithering in units of Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
+// Sixteen bits hold 16 times the flux of an emitted photon, which is as far as the factors of shading normals go: up to
+// 4, and 3 where dispersion or the medium made one channel of three.
 #define PHOTON_FLUX_UNIT 4096.0f
 typedef struct {
   real position[3];
-  uint normal;         // normal_pack, facing the side that the photon came from
+  uint normal;         // normal_pack, facing the side that the photon came from; in the medium, where it was going
   uint flux_rg;        // red in the low 16 bits, green in the high ones
   uint flux_b;
 } Photon;

@@ -81,6 +81,17 @@ std::string shadow_rays_reason(const Scene& scene) {
   return environment.empty() ? "" : key + environment;
 }
 
+std::string motion_reason(const Scene& scene) {
+  if (!has_motion(scene)) return "";
+  return first_object(
+      scene, [](const Object& object) { return length(object.motion) > 0; },
+      [](const Object& object) { return "motion of " + object.pointer; });
+}
+
+bool fills(const MediumSpec& medium) {
+  return max_component(medium.absorption) > 0 || max_component(medium.scattering) > 0;
+}
+
 }  // namespace
 
 Effects find_effects(const Scene& scene) {
@@ -104,6 +115,13 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_PLASTIC, "plastic", "plastic", by_kind(scene, Kind::plastic, "plastic")},
       {EFFECT_ENVIRONMENT, "environment", "light from beyond the scene", environment_reason(scene)},
       {EFFECT_DELTA_LIGHTS, "delta_lights", "point, spot and directional lights", delta_lights_reason(scene)},
+      {EFFECT_ABSORPTION, "absorption", "absorption in glass",
+       by_material(scene, "absorption",
+                   [](const MaterialSpec& material) { return max_component(material.absorption) > 0; })},
+      {EFFECT_DISPERSION, "dispersion", "dispersion",
+       by_material(scene, "cauchy", [](const MaterialSpec& material) { return material.dispersion > 0; })},
+      {EFFECT_MOTION, "motion", "motion blur", motion_reason(scene)},
+      {EFFECT_MEDIUM, "medium", "medium", fills(scene.medium) ? "/medium" : ""},
   };
 }
 

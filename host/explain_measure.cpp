@@ -85,6 +85,18 @@ std::optional<std::pair<Scene, std::string>> scene_without(const Scene& scene, u
       return std::pair{with_diffuse(scene, MaterialSpec::Kind::conductor), "diffuse surfaces"};
     case EFFECT_PLASTIC:
       return std::pair{with_diffuse(scene, MaterialSpec::Kind::plastic), "diffuse surfaces"};
+    case EFFECT_ABSORPTION:
+      for (auto& material : plain.materials) material.absorption = {};
+      return std::pair{plain, "clear glass"};
+    case EFFECT_DISPERSION:
+      for (auto& material : plain.materials) material.dispersion = 0;
+      return std::pair{plain, "one index for all wavelengths"};
+    case EFFECT_MOTION:
+      for (auto& object : plain.objects) object.motion = {};
+      return std::pair{plain, "a still"};
+    case EFFECT_MEDIUM:
+      plain.medium = {};
+      return std::pair{plain, "empty space"};
     default:
       return {};
   }

@@ -14,8 +14,9 @@ namespace {
 
 constexpr unsigned geometry_effects =
     EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
-constexpr unsigned shading_effects =
-    EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH | EFFECT_CONDUCTOR | EFFECT_PLASTIC;
+constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH |
+                                     EFFECT_CONDUCTOR | EFFECT_PLASTIC | EFFECT_ABSORPTION |
+                                     EFFECT_DISPERSION | EFFECT_MEDIUM;
 constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 
 /// The effects that the kernels of each pass ask for with HAS().
@@ -23,7 +24,7 @@ const std::map<std::string, unsigned> effects_read{
     {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS},
     {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS},
     {"grid", 0},
-    {"gather", 0},
+    {"gather", EFFECT_MEDIUM},
     {"film", 0},
     {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS},
 };

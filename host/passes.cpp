@@ -16,9 +16,10 @@ bool stores_photons(const MaterialSpec& material) {
 /// Why no photon would ever be stored, or found by a camera path.
 std::string why_no_photons(const Scene& scene) {
   if (!has_light(scene)) return "nothing emits light";
-  const bool lands = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-    return stores_photons(scene.materials[static_cast<std::size_t>(object.material)]);
-  });
+  const bool lands = max_component(scene.medium.scattering) > 0 ||
+                     std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+                       return stores_photons(scene.materials[static_cast<std::size_t>(object.material)]);
+                     });
   if (!lands) return "no surface is diffuse or plastic: photons would land nowhere";
   if (scene.renderer.direct_light == DirectLight::shadow_rays && scene.max_depth == 1)
     return "max_depth is 1: all light is direct, which shadow rays bring";

@@ -6,10 +6,12 @@
 
 namespace causticl {
 
-PathTracer::PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
+PathTracer::PathTracer(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film,
                        Programs& programs, std::uint32_t seed)
     : device_(device),
       film_(film),
+      device_scene_(device_scene),
+      motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       trace_paths_(programs.kernel("path", "trace_paths")),
       counters_(device.buffer(sizeof(Counters), "counters")) {
@@ -21,7 +23,10 @@ PathTracer::PathTracer(const Scene& scene, const DeviceScene& device_scene, Devi
 
 void PathTracer::enqueue_pass(std::uint32_t pass) {
   if (pass == 0) began_ = Clock::now();
-  params_.pass = pass;
+  begin_pass(params_, pass);
+  motion_.begin_pass(pass);
+  set_emission(params_, device_scene_);
+  set_scene_arguments(trace_paths_, device_scene_);
   const std::size_t pixels = film_.pixels(), chunk = launch_chunk(device_);
   for (std::size_t first = 0; first < pixels; first += chunk) {
     params_.first_pixel = static_cast<uint>(first);

@@ -3,6 +3,7 @@
 
 #include "film.hpp"
 #include "integrator.hpp"
+#include "motion.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
 
@@ -10,8 +11,8 @@ namespace causticl {
 
 class PathTracer : public PassIntegrator {
  public:
-  PathTracer(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-             Programs& programs, std::uint32_t seed);
+  PathTracer(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
+             std::uint32_t seed);
 
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
@@ -20,6 +21,8 @@ class PathTracer : public PassIntegrator {
  private:
   Device& device_;
   Film& film_;
+  const DeviceScene& device_scene_;
+  Motion motion_;
   Params params_{};
   cl::Kernel trace_paths_;
   cl_uint first_argument_;

@@ -38,6 +38,7 @@ Counters PhotonMap::trace(Params params) {
   for (;;) {
     params.photon_capacity = capacity_;
     device_.clear(counters_, sizeof(cl_uint));
+    set_scene_arguments(trace_photons_, scene_);
     trace_photons_.setArg(first_argument_, photons_);
     trace_photons_.setArg(first_argument_ + 1, counters_);
     trace_photons_.setArg(first_argument_ + 2, params);

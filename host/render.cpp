@@ -143,7 +143,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   }
   const auto kernels_before = device.kernel_times();
   Programs programs(device, kernels, passes_to_run(plan));
-  const DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
+  DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
   Film film(device, programs, scene.width, scene.height);
   std::unique_ptr<PassIntegrator> integrator;
   if (sppm) {

@@ -14,7 +14,7 @@ constexpr std::int64_t visible_point_limit = std::int64_t{1} << 31;
 
 const std::vector<std::string> scene_keys{"path",     "width",     "height",     "sample",     "max_depth",
                                           "Na",       "Ng",        "thread_num", "stack_size", "camera",
-                                          "renderer", "materials", "objects",    "lights"};
+                                          "renderer", "materials", "objects",    "lights",     "medium"};
 
 void read_size(const JsonReader& json, const SceneOptions& options, Scene& scene) {
   scene.width = static_cast<int>(json.integer("width", scene.width, 1, pixel_limit));
@@ -52,6 +52,28 @@ void read_integrator(const JsonReader& json, const SceneOptions& options, SceneL
               std::to_string(scene.height) + " pixels with " + std::to_string(renderer.visible_points));
 }
 
+MediumSpec read_medium(const JsonReader& json) {
+  json.check_keys({"absorption", "scattering", "g"});
+  MediumSpec medium;
+  medium.absorption = read_vector(json, "absorption", {}, non_negative_number);
+  medium.scattering = read_vector(json, "scattering", {}, non_negative_number);
+  medium.g = json.number("g", 0, {-0.99, 0.99, "a mean cosine from -0.99 to 0.99"});
+  return medium;
+}
+
+// Through a medium without end nothing is left of light from infinitely far, while its photons start near the
+// scene.
+void refuse_infinite_light(const JsonReader& json, const Scene& scene) {
+  if (!(max_component(scene.medium.absorption + scene.medium.scattering) > 0)) return;
+  const bool directional = std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
+    return light.kind == DeltaLight::Kind::directional;
+  });
+  if (directional || scene.environment)
+    json.at("medium").fail(
+        "expected no environment and no directional light beside a medium, which swallows light "
+        "from infinitely far, got one; use a large disk or a point light");
+}
+
 void warn_without_light(const JsonReader& json, SceneLoader& loader) {
   if (!has_light(loader.scene)) loader.notice(json, "no light: the image will be black");
 }
@@ -76,11 +98,17 @@ bool has_light(const Scene& scene) {
          });
 }
 
+bool has_motion(const Scene& scene) {
+  return scene.camera.shutter[1] > scene.camera.shutter[0] &&
+         std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& object) { return length(object.motion) > 0; });
+}
+
 Scene load_scene(const std::string& file, const SceneOptions& options) {
   JsonDocument document = json_read(file);
   for (const auto& [key, value] : options.overrides) json_override(document, key, value);
   const JsonReader json(document);
-  json.check_keys(scene_keys, {"medium"});
+  json.check_keys(scene_keys);
 
   SceneLoader loader;
   Scene& scene = loader.scene;
@@ -97,11 +125,13 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
     }
   read_integrator(json, options, loader);
   scene.camera = read_camera(json.at("camera"), static_cast<double>(scene.width) / scene.height);
+  if (const auto medium = json.find("medium")) scene.medium = read_medium(*medium);
   if (const auto materials = json.find("materials")) read_named_materials(*materials, loader);
   for (const JsonReader& object : json.at("objects").items(1, SIZE_MAX, "object"))
     read_object(object, loader);
   if (const auto renderer = json.find("renderer")) read_disc_light(*renderer, loader);
   if (const auto lights = json.find("lights")) read_lights(*lights, loader);
+  refuse_infinite_light(json, scene);
   warn_without_light(json, loader);
   return std::move(scene);
 }

@@ -36,6 +36,8 @@ struct MaterialSpec {
   double ior = 1.5;            // glass, plastic: the index inside; Scene::outside_ior is around it
   Color eta, k;                // conductor: real and imaginary part of the index
   double roughness = 0;        // glass, conductor, plastic: the square root of GGX's alpha
+  Vec3 absorption;             // glass: per unit length inside
+  double dispersion = 0;       // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
 };
 
 struct Object {
@@ -49,6 +51,7 @@ struct Object {
   int mesh = -1;        // index into Scene::meshes
   bool smooth = true;   // mesh: use the file's vertex normals, or averaged ones where it has none
   std::vector<std::array<double, 2>> points;  // bezier: control points (radius, height)
+  Vec3 motion;                                // what it moves by in a unit of time, from time 0
   bool is_disc_light = false;                 // comes from renderer.light_pos
 };
 
@@ -79,7 +82,8 @@ struct CameraSpec {
   Vec3 right, up;       // full film extent at distance 1 along the axis
   double plane_distance = 0;
   double focal_distance = 1;
-  double aperture = 0;     // lens radius
+  double aperture = 0;                  // lens radius
+  std::array<double, 2> shutter{0, 1};  // times at which it opens and closes
   bool flat_focus = true;  // the focus is a plane (position/target form) or a sphere (origin/direct form)
 };
 
@@ -100,6 +104,12 @@ struct RendererSpec {
   DirectLight direct_light = DirectLight::shadow_rays;  // key "direct_light": "shadow_rays" | "photons"
 };
 
+/// What fills all space outside glass.
+struct MediumSpec {
+  Vec3 absorption, scattering;  // per unit length
+  double g = 0;                 // mean cosine of Henyey & Greenstein's phase function
+};
+
 struct Scene {
   std::string file;
   std::string output;  // key `path`; empty where absent
@@ -108,6 +118,7 @@ struct Scene {
   double outside_ior = 1;  // key `Na`
   RendererSpec renderer;
   CameraSpec camera;
+  MediumSpec medium;
   std::vector<Object> objects;
   std::vector<DeltaLight> lights;
   std::optional<Environment> environment;
@@ -124,6 +135,9 @@ bool is_lit(const Environment& environment);
 
 /// Whether anything in the scene emits light.
 bool has_light(const Scene& scene);
+
+/// Whether anything moves while the shutter is open.
+bool has_motion(const Scene& scene);
 
 /// A `-D key=value` of the command line: `key` is a path of JSON keys joined by dots ("renderer.radius",
 /// "objects.3.radius"), `value` is JSON, or a string where it is not.

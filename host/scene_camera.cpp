@@ -12,7 +12,8 @@ constexpr NumberRange field_of_view{0.001, 179.9, "degrees from 0.001 to 179.9"}
 
 const std::vector<std::string> direct_keys{"origin",         "direct",         "view_angle_scale",
                                            "plane_distance", "focal_distance", "aperture"};
-const std::vector<std::string> target_keys{"position", "target", "up", "fov", "aperture", "focus_distance"};
+const std::vector<std::string> target_keys{"position", "target",         "up",     "fov",
+                                           "aperture", "focus_distance", "shutter"};
 
 // A key of the other form is no spelling mistake: say what it is.
 void refuse_keys_of(const std::vector<std::string>& other, const std::vector<std::string>& own,
@@ -53,9 +54,18 @@ CameraSpec read_direct_camera(const JsonReader& json, double aspect) {
   return camera;
 }
 
+std::array<double, 2> read_shutter(const JsonReader& json) {
+  constexpr NumberRange time{-1e6, 1e6, "a time from -1e6 to 1e6"};
+  const auto items = json.items(2, 2, "times, at which the shutter opens and closes");
+  const double opens = items[0].number(time), closes = items[1].number(time);
+  if (closes < opens)
+    items[1].fail("expected the shutter to close no earlier than it opens, got an earlier time");
+  return {opens, closes};
+}
+
 CameraSpec read_target_camera(const JsonReader& json, double aspect) {
   refuse_keys_of(direct_keys, target_keys, json, "\"position\" and \"target\"");
-  json.check_keys(target_keys, {"shutter"});
+  json.check_keys(target_keys);
   CameraSpec camera;
   camera.origin = read_vector(json.at("position"));
   const Vec3 to_target = read_vector(json.at("target")) - camera.origin;
@@ -75,6 +85,7 @@ CameraSpec read_target_camera(const JsonReader& json, double aspect) {
   camera.aperture = json.number("aperture", 0, non_negative_number);
   camera.focal_distance = json.number("focus_distance", distance, positive_number);
   camera.flat_focus = true;
+  if (const auto shutter = json.find("shutter")) camera.shutter = read_shutter(*shutter);
   return camera;
 }
 
@@ -86,7 +97,7 @@ CameraSpec read_camera(const JsonReader& json, double aspect) {
   if (json.has("origin") || json.has("direct")) return read_direct_camera(json, aspect);
   std::vector<std::string> keys = target_keys;
   keys.insert(keys.end(), direct_keys.begin(), direct_keys.end());
-  json.check_keys(keys, {"shutter"});
+  json.check_keys(keys);
   json.fail(
       "expected \"position\", \"target\" and \"fov\", or \"origin\", \"direct\" and \"view_angle_scale\", "
       "got neither");

@@ -49,6 +49,14 @@ int read_color_texture(const JsonReader& json, SceneLoader& loader) {
   return add_texture(texture, loader);
 }
 
+// n = A + B / wavelength^2, with the wavelength in micrometres.
+void read_cauchy(const JsonReader& json, const JsonReader& material_json, MaterialSpec& material) {
+  if (material_json.has("ior")) json.fail("expected \"ior\" or \"cauchy\", got both");
+  const auto items = json.items(2, 2, "numbers, A and B of the index A + B / wavelength^2");
+  material.ior = items[0].number({1, 100, "an index A from 1 to 100"});
+  material.dispersion = items[1].number({0, 1, "B from 0 to 1 square micrometre"});
+}
+
 int read_material(const JsonReader& json, SceneLoader& loader) {
   if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
   using Kind = MaterialSpec::Kind;
@@ -61,7 +69,8 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
     material.eta = read_vector(json.at("eta"), refractive_index);
     material.k = read_vector(json.at("k"), extinction_coefficient);
   } else if (material.kind == Kind::glass) {
-    json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"}, {"cauchy", "absorption"});
+    json.check_keys({"type", "color", "emission", "two_sided", "ior", "cauchy", "absorption", "roughness"});
+    material.absorption = read_vector(json, "absorption", {}, non_negative_number);
   } else if (material.kind == Kind::plastic) {
     json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"});
   } else {
@@ -76,6 +85,7 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
   material.emission = read_vector(json, "emission", {}, non_negative_number);
   material.two_sided = json.boolean("two_sided", false);
   material.ior = json.number("ior", loader.glass_ior, refractive_index);
+  if (const auto cauchy = json.find("cauchy")) read_cauchy(*cauchy, json, material);
   material.roughness = json.number("roughness", 0, unit_number);
   return add_material(material, loader);
 }

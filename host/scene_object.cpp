@@ -13,7 +13,7 @@ const std::vector<std::string> type_names{"sphere", "plane", "rectangle",    "di
                                           "box",    "mesh",  "bezier_rotate"};
 
 std::vector<std::string> keys_of(Shape shape) {
-  std::vector<std::string> keys{"type", "transform", "texture", "material"};
+  std::vector<std::string> keys{"type", "transform", "motion", "texture", "material"};
   switch (shape) {
     case Shape::sphere:
     case Shape::disk:
@@ -96,8 +96,12 @@ void read_object(const JsonReader& json, SceneLoader& loader) {
   Object object;
   object.pointer = json.pointer();
   object.shape = static_cast<Shape>(json.at("type").choice(type_names));
-  json.check_keys(keys_of(object.shape), {"motion"});
+  json.check_keys(keys_of(object.shape));
   if (const auto transform = json.find("transform")) object.transform = read_transform(*transform);
+  if (const auto motion = json.find("motion")) {
+    motion->check_keys({"shift"});
+    object.motion = read_vector(motion->at("shift"));
+  }
 
   switch (object.shape) {
     case Shape::sphere:

@@ -184,6 +184,20 @@ void print_objects(std::ostream& text, const Scene& scene) {
   if (uses.size() > 1) text << "  in all    " << count(triangles, "triangle") << "\n";
 }
 
+void print_motion(std::ostream& text, const Scene& scene) {
+  if (!has_motion(scene)) return;
+  const auto moving = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                    [](const Object& object) { return length(object.motion) > 0; });
+  text << "  moving    " << moving << ", shutter from " << scene.camera.shutter[0] << " to "
+       << scene.camera.shutter[1] << "\n";
+}
+
+void print_medium(std::ostream& text, const MediumSpec& medium) {
+  if (!(max_component(medium.absorption + medium.scattering) > 0)) return;
+  text << "medium      absorption " << triple(medium.absorption) << ", scattering "
+       << triple(medium.scattering) << " per unit length, g " << medium.g << "\n";
+}
+
 void print_materials(std::ostream& text, const Scene& scene) {
   std::map<std::string, std::size_t> kinds;
   for (const auto& material : scene.materials) ++kinds[material_name(material.kind)];
@@ -262,7 +276,9 @@ std::string scene_summary(const Scene& scene) {
   print_integrator(text, scene);
   print_camera(text, scene.camera);
   print_objects(text, scene);
+  print_motion(text, scene);
   print_materials(text, scene);
+  print_medium(text, scene.medium);
   print_emitters(text, scene);
   print_bounds(text, scene);
   for (const auto& notice : scene.notices) text << "note        " << notice << "\n";

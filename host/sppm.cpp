@@ -9,11 +9,13 @@
 
 namespace causticl {
 
-Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film,
-           Programs& programs, std::uint32_t seed, bool with_photons)
+Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
+           std::uint32_t seed, bool with_photons)
     : spec_(scene.renderer),
       device_(device),
       film_(film),
+      device_scene_(device_scene),
+      motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
       photon_map_(device_scene, device, programs, counters_),
@@ -23,7 +25,6 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.photon_count = static_cast<uint>(spec_.photons);
-  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene.emitted_power / spec_.photons);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
 
@@ -35,7 +36,7 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   // The first pass begins here, while programs that it needs later are still being built.
   if (with_photons_) photon_map_.prepare();
   began_ = Clock::now();
-  trace_photons(0);
+  start_pass(0);
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
   trace_camera_ = programs.kernel("camera", "trace_camera");
   gather_photons_ = programs.kernel("gather", "gather_photons");
@@ -46,18 +47,22 @@ Sppm::Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, 
   first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(programs, device_scene.extent);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
+  params_.first_radius = static_cast<float>(first_radius_);
   cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
   set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
   device_.launch_pass(start_pixels, film_.pixels());
 }
 
-/// Traces the photons of the pass, unless that has been done.
-void Sppm::trace_photons(std::uint32_t pass) {
-  if (!with_photons_ || traced_pass_ == pass) return;
-  params_.pass = pass;
-  totals_.update(photon_map_.trace(params_));
-  traced_pass_ = pass;
+/// Places what moves for the pass and traces its photons, unless that has been done.
+void Sppm::start_pass(std::uint32_t pass) {
+  if (started_pass_ == pass) return;
+  begin_pass(params_, pass);
+  motion_.begin_pass(pass);
+  set_emission(params_, device_scene_);
+  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / spec_.photons);
+  if (with_photons_) totals_.update(photon_map_.trace(params_));
+  started_pass_ = pass;
 }
 
 /// The radius within which the median visible point of a coarse picture finds a dozen photons of the first
@@ -83,6 +88,7 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
+    params.first_radius = static_cast<float>(radius);
     photon_map_.sort(2 * radius);
     set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
                   photon_map_.grid(), params);
@@ -115,8 +121,8 @@ void Sppm::advance_schedule(std::uint32_t pass) {
 }
 
 void Sppm::enqueue_pass(std::uint32_t pass) {
-  trace_photons(pass);
-  params_.pass = pass;
+  start_pass(pass);
+  set_scene_arguments(trace_camera_, device_scene_);
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
   emitted_ += with_photons_ ? params_.photon_count : 0;

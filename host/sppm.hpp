@@ -5,6 +5,7 @@
 
 #include "film.hpp"
 #include "integrator.hpp"
+#include "motion.hpp"
 #include "photon_map.hpp"
 #include "upload.hpp"
 
@@ -13,7 +14,7 @@ namespace causticl {
 class Sppm : public PassIntegrator {
  public:
   /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture.
-  Sppm(const Scene& scene, const DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
+  Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
        std::uint32_t seed, bool with_photons);
 
   void enqueue_pass(std::uint32_t pass) override;
@@ -28,11 +29,13 @@ class Sppm : public PassIntegrator {
   const RendererSpec spec_;
   Device& device_;
   Film& film_;
+  const DeviceScene& device_scene_;
+  Motion motion_;
   Params params_;
   cl::Buffer counters_;
   PhotonMap photon_map_;
   bool with_photons_;
-  std::optional<std::uint32_t> traced_pass_;  // whose photons are in the map
+  std::optional<std::uint32_t> started_pass_;  // whose photons are in the map
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;
   std::size_t visible_point_bytes_, chunk_pixels_;
@@ -43,7 +46,7 @@ class Sppm : public PassIntegrator {
   double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
-  void trace_photons(std::uint32_t pass);
+  void start_pass(std::uint32_t pass);
   double choose_first_radius(Programs& programs, double extent);
   void advance_schedule(std::uint32_t pass);
 };

@@ -54,6 +54,7 @@ Material device_material(const MaterialSpec& spec, double outside_ior) {
   } else if (spec.kind == MaterialSpec::Kind::plastic) {
     result.eta.w = static_cast<float>(inner_reflectance(spec.ior / outside_ior));
   }
+  result.absorption = to_float4(spec.absorption, spec.dispersion / outside_ior);
   result.alpha = static_cast<float>(spec.roughness * spec.roughness);
   result.kind = material_kind(spec.kind);
   result.flags =
@@ -110,24 +111,29 @@ void upload_textures(const Scene& scene, Device& device, DeviceScene& out) {
   out.texels = device.upload(texels, "texels");
 }
 
+/// Writes `data` into `buffer`, or into a new one where that is too small.
+template <typename T>
+void upload_into(cl::Buffer& buffer, Device& device, const std::vector<T>& data, const std::string& what) {
+  const std::size_t bytes = data.size() * sizeof(T);
+  if (!buffer() || buffer.getInfo<CL_MEM_SIZE>() < bytes)
+    buffer = device.upload(data, what);
+  else if (bytes)
+    device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data.data());
+}
+
 }  // namespace
 
-DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, TriangleTest triangle_test) {
-  const World world = build_world(scene);
-  KdTree tree = build_kdtree(world.tree, threads);
-  if (triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, threads);
-  DeviceScene out;
-  out.nodes = device.upload(tree.nodes, "tree nodes");
-  out.blocks = device.upload(tree.blocks, "triangle blocks");
-  out.attributes = device.upload(world.attributes, "triangle attributes");
-  out.shapes = device.upload(world.shapes, "shapes");
-  out.curves = device.upload(world.curves, "curves");
-  out.emitters = device.upload(world.emitters, "emitters");
-  out.environment = device.upload(world.environment, "environment");
-  std::vector<Material> materials;
-  for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
-  out.materials = device.upload(materials, "materials");
-  upload_textures(scene, device, out);
+void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out) {
+  const World world = build_world(scene, time);
+  KdTree tree = build_kdtree(world.tree, out.threads);
+  if (out.triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, out.threads);
+  upload_into(out.nodes, device, tree.nodes, "tree nodes");
+  upload_into(out.blocks, device, tree.blocks, "triangle blocks");
+  upload_into(out.attributes, device, world.attributes, "triangle attributes");
+  upload_into(out.shapes, device, world.shapes, "shapes");
+  upload_into(out.curves, device, world.curves, "curves");
+  upload_into(out.emitters, device, world.emitters, "emitters");
+  upload_into(out.environment, device, world.environment, "environment");
 
   out.plane_count = world.plane_count;
   out.emitter_count = static_cast<uint>(world.emitters.size());
@@ -146,7 +152,18 @@ DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, T
   out.triangles = world.tree.triangles.size();
   out.shapes_count = world.shapes.size();
   out.skipped_triangles = tree.skipped;
-  out.tree_build_seconds = tree.build_seconds;
+  out.tree_build_seconds += tree.build_seconds;
+}
+
+DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, TriangleTest triangle_test) {
+  DeviceScene out;
+  out.threads = threads;
+  out.triangle_test = triangle_test;
+  place_scene(scene, scene.camera.shutter[0], device, out);
+  std::vector<Material> materials;
+  for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
+  out.materials = device.upload(materials, "materials");
+  upload_textures(scene, device, out);
   return out;
 }
 

@@ -17,13 +17,19 @@ struct DeviceScene {
   Vec3 center;               // of all bounded objects
   double extent = 1;         // their largest half extent
   std::size_t triangles = 0, shapes_count = 0, skipped_triangles = 0;
-  double tree_build_seconds = 0;
+  double tree_build_seconds = 0;                          // of all trees so far
+  unsigned threads = 0;                                   // that build a tree; 0: all cores
+  TriangleTest triangle_test = TriangleTest::watertight;  // of the kernels
 };
 
-/// Builds the tree with `threads` threads (0: all cores), for kernels with `triangle_test`, and uploads
-/// everything.
+/// Uploads everything as it is when the shutter opens, with a tree built by `threads` threads (0: all cores),
+/// for kernels with `triangle_test`.
 DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads = 0,
                          TriangleTest triangle_test = TriangleTest::watertight);
+
+/// Puts what moves to where it is at `time`: builds shapes, emitters and tree anew and uploads them, into the
+/// same buffers as long as they fit.
+void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out);
 
 /// The thin lens of the scene's camera.
 Camera device_camera(const CameraSpec& camera);

@@ -24,14 +24,15 @@ void store_rows(const Transform& transform, float4 rows[3]) {
 /// Appends the primitives of one object after another.
 class WorldBuilder {
  public:
-  explicit WorldBuilder(const Scene& scene) : scene_(scene) {}
+  WorldBuilder(const Scene& scene, double time) : scene_(scene), time_(time) {}
 
   World build() {
     // Planes come first, so that a kernel scans them by number.
     for (const auto& object : scene_.objects)
-      if (object.shape == Shape3::plane) add_shape(object);
+      if (object.shape == Shape3::plane) add_shape(placed(object));
     world_.plane_count = static_cast<uint>(world_.shapes.size());
-    for (const auto& object : scene_.objects) {
+    for (const auto& unplaced : scene_.objects) {
+      const Object object = placed(unplaced);
       switch (object.shape) {
         case Shape3::plane:
           break;
@@ -54,7 +55,14 @@ class WorldBuilder {
 
  private:
   const Scene& scene_;
+  const double time_;
   World world_;
+
+  /// The object where it is at the time.
+  Object placed(Object object) const {
+    object.transform.translation = object.transform.translation + time_ * object.motion;
+    return object;
+  }
 
   const MaterialSpec& material(const Object& object) const { return scene_.materials[object.material]; }
   // As a float, which is what the kernels see: the smallest doubles are none.
@@ -273,6 +281,6 @@ class WorldBuilder {
 
 }  // namespace
 
-World build_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+World build_world(const Scene& scene, double time) { return WorldBuilder(scene, time).build(); }
 
 }  // namespace causticl

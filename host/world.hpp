@@ -20,8 +20,9 @@ struct World {
   double emitted_power = 0;  // of the largest channels of all emitters, over pi
 };
 
-/// Meshes, rectangles and boxes become world-space triangles, everything else becomes shapes; emissive ones
-/// are listed as emitters, as are the lights that are no surfaces, with their probabilities.
-World build_world(const Scene& scene);
+/// The scene at `time`. Meshes, rectangles and boxes become world-space triangles, everything else becomes
+/// shapes; emissive ones are listed as emitters, as are the lights that are no surfaces, with their
+/// probabilities.
+World build_world(const Scene& scene, double time = 0);
 
 }  // namespace causticl

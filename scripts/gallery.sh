@@ -16,6 +16,7 @@ for scene in "${scenes[@]}"; do
   [ "$name" = cornell_box ] && size=300x300
   [[ "$scene" == */effects/* ]] && size=400x250
   [ "$name" = rough_metals ] && size=640x400
+  case "$name" in coloured_glass | prism | moving_balls | fog) size=480x300 passes=96 ;; esac
   [ "$name" = glass_caustic ] && size=800x600 passes=96
   "$root/build/causticl" render "$scene" --size $size --passes $passes --quiet -o "$root/scenes/gallery/$name.png"
   echo "scenes/gallery/$name.png"

@@ -72,6 +72,7 @@ ASSETS = {
     "rug.obj": obj(models.rug),
     "disc_lamp.obj": obj(models.disc_lamp),
     "mirror_ring.ply": ply(models.mirror_ring),
+    "glass_prism.obj": obj(models.glass_prism),
     # Textures for base-format scenes, which read texels undecoded: these hold linear values.
     "seascape.jpg": texture(lambda: textures.seascape(1000, 816, 4)),
     "wallpaper.png": texture(lambda: textures.wallpaper(256, srgb(214, 208, 190), srgb(188, 184, 160),

@@ -168,3 +168,19 @@ def mirror_ring(inner=0.94, outer=1.0, height=0.55, segments=128):
     faces = [(i * n + j, (i + 1) % segments * n + j, (i + 1) % segments * n + (j + 1) % n, i * n + (j + 1) % n)
              for i in range(segments) for j in range(n)]
     return oriented(Mesh(positions, normals, faces))
+
+
+def glass_prism():
+    """An equilateral prism with edges of 1 about the z axis, an edge on top; flat faces."""
+    angle = np.radians([90, 210, 330])
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1) / np.sqrt(3)
+    front, back = ring + [0, 0, 0.5], ring - [0, 0, 0.5]
+    positions, normals, faces = [], [], []
+    sides = [(front, [0, 0, 1]), (back[::-1], [0, 0, -1])]
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        sides.append(([front[a], back[a], back[b], front[b]], ring[a] + ring[b]))
+    for corners, normal in sides:
+        faces.append(range(len(positions), len(positions) + len(corners)))
+        positions.extend(corners)
+        normals.extend([normal] * len(corners))
+    return Mesh(positions, normals, faces)

@@ -64,8 +64,38 @@ inline constexpr BadScene bad_materials[] = {
     {"infinite light in sppm", "\"type\": \"sphere\", \"radius\": 1", "\"type\": \"plane\"",
      "scene.json:8: /objects/1: an infinite light has no power to emit; use a rectangle or the integrator "
      "\"pt\""},
-    {"medium", "\"width\": 64", "\"medium\": {}",
-     "scene.json:2: /medium: key \"medium\" is not supported yet; remove it"},
+    {"negative scattering", "\"width\": 64", "\"medium\": {\"scattering\": [0.1, -0.1, 0.1]}, \"width\": 64",
+     "scene.json:2: /medium/scattering/1: expected a number from 0 to 1e12, got -0.1"},
+    {"medium with g of 1", "\"width\": 64", "\"medium\": {\"g\": 1}, \"width\": 64",
+     "scene.json:2: /medium/g: expected a mean cosine from -0.99 to 0.99, got 1"},
+    {"medium with an unknown key", "\"width\": 64", "\"medium\": {\"density\": 1}, \"width\": 64",
+     "scene.json:2: /medium/density: unknown key \"density\"; use one of \"absorption\", \"scattering\" or "
+     "\"g\""},
+    {"medium as a number", "\"width\": 64", "\"medium\": 0.1, \"width\": 64",
+     "scene.json:2: /medium: expected an object, got 0.1"},
+    {"medium under a sky", "\"width\": 64",
+     "\"medium\": {\"absorption\": [1, 1, 1]}, \"lights\": [{\"type\": \"environment\", \"radiance\": [1, 1, "
+     "1]}], "
+     "\"width\": 64",
+     "scene.json:2: /medium: expected no environment and no directional light beside a medium, which "
+     "swallows light "
+     "from infinitely far, got one; use a large disk or a point light"},
+    {"negative absorption", "\"diffuse\", \"color\"", "\"glass\", \"absorption\": [0, -1, 0], \"color\"",
+     "scene.json:5: /materials/white/absorption/1: expected a number from 0 to 1e12, got -1"},
+    {"absorption of a mirror", "\"diffuse\", \"color\"", "\"mirror\", \"absorption\": [0, 1, 0], \"color\"",
+     "scene.json:5: /materials/white/absorption: unknown key \"absorption\"; use one of \"type\", \"color\", "
+     "\"emission\" or \"two_sided\""},
+    {"cauchy beside ior", "\"diffuse\", \"color\"",
+     "\"glass\", \"ior\": 1.5, \"cauchy\": [1.5, 0.01], \"color\"",
+     "scene.json:5: /materials/white/cauchy: expected \"ior\" or \"cauchy\", got both"},
+    {"cauchy below 1", "\"diffuse\", \"color\"", "\"glass\", \"cauchy\": [0.9, 0.01], \"color\"",
+     "scene.json:5: /materials/white/cauchy/0: expected an index A from 1 to 100, got 0.9"},
+    {"cauchy in square nanometres", "\"diffuse\", \"color\"", "\"glass\", \"cauchy\": [1.5, 4200], \"color\"",
+     "scene.json:5: /materials/white/cauchy/1: expected B from 0 to 1 square micrometre, got 4200"},
+    {"cauchy of one number", "\"diffuse\", \"color\"", "\"glass\", \"cauchy\": [1.5], \"color\"",
+     "scene.json:5: /materials/white/cauchy: expected a list of 2 numbers, A and B of the index A + B / "
+     "wavelength^2, "
+     "got a list of 1"},
     {"unknown texture type", "\"material\": \"white\"", "\"texture\": {\"type\": \"noise\"}",
      "scene.json:7: /objects/0/texture/type: expected \"raw\" or \"image\", got \"noise\""},
     {"unknown base material", "\"material\": \"white\"",

@@ -76,8 +76,15 @@ inline constexpr BadScene bad_objects[] = {
     {"curve of one place", "\"type\": \"rectangle\"",
      "\"type\": \"bezier_rotate\", \"point\": [[1, 2], [1, 2]]",
      "scene.json:7: /objects/0/point: expected control points that differ, got one point"},
-    {"motion", "\"type\": \"rectangle\"", "\"type\": \"rectangle\", \"motion\": {\"shift\": [1, 0, 0]}",
-     "scene.json:7: /objects/0/motion: key \"motion\" is not supported yet; remove it"},
+    {"motion as a vector", "\"type\": \"rectangle\"", "\"type\": \"rectangle\", \"motion\": [1, 0, 0]",
+     "scene.json:7: /objects/0/motion: expected an object, got a list of 3"},
+    {"motion without shift", "\"type\": \"rectangle\"", "\"type\": \"rectangle\", \"motion\": {}",
+     "scene.json:7: /objects/0/motion/shift: expected a vector, got nothing; the key is required; write [x, "
+     "y, z] or "
+     "{\"x\": x, \"y\": y, \"z\": z}"},
+    {"motion that turns", "\"type\": \"rectangle\"",
+     "\"type\": \"rectangle\", \"motion\": {\"rotate\": [0, 1, 0]}",
+     "scene.json:7: /objects/0/motion/rotate: unknown key \"rotate\"; use \"shift\""},
 };
 
 }  // namespace causticl

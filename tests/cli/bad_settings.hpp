@@ -87,8 +87,12 @@ inline constexpr BadScene bad_settings[] = {
      "the default is [0, 1, 0]"},
     {"up of length 0", "\"fov\": 40", "\"fov\": 40, \"up\": [0, 0, 0]",
      "scene.json:4: /camera/up: expected a direction off the line of sight, got one along it or of length 0"},
-    {"shutter", "\"fov\": 40", "\"fov\": 40, \"shutter\": [0, 1]",
-     "scene.json:4: /camera/shutter: key \"shutter\" is not supported yet; remove it"},
+    {"shutter that closes first", "\"fov\": 40", "\"fov\": 40, \"shutter\": [1, 0.5]",
+     "scene.json:4: /camera/shutter/1: expected the shutter to close no earlier than it opens, got an "
+     "earlier time"},
+    {"shutter of one time", "\"fov\": 40", "\"fov\": 40, \"shutter\": [1]",
+     "scene.json:4: /camera/shutter: expected a list of 2 times, at which the shutter opens and closes, got "
+     "a list of 1"},
     {"direct of length 0", "{\"position\": [0, 1, 5], \"target\": [0, 0, 0], \"fov\": 40}",
      "{\"origin\": [0, 0, 5], \"direct\": [0, 0, 0], \"view_angle_scale\": 0.5}",
      "scene.json:4: /camera/direct: expected a direction, got a vector of length 0"},

@@ -54,7 +54,7 @@ inline constexpr BadScene bad_syntax[] = {
     {"unknown key at the top", "\"width\"", "\"colour_depth\"",
      "scene.json:2: /colour_depth: unknown key \"colour_depth\"; use one of \"path\", \"width\", \"height\", "
      "\"sample\", \"max_depth\", \"Na\", \"Ng\", \"thread_num\", \"stack_size\", \"camera\", \"renderer\", "
-     "\"materials\", \"objects\" or \"lights\""},
+     "\"materials\", \"objects\", \"lights\" or \"medium\""},
     {"unknown key with odd characters", "\"radius\": 1", "\"ra/di~us\\n\": 1",
      "scene.json:8: /objects/1/ra~1di~0us?: unknown key \"ra/di~us\\n\"; did you mean \"radius\"?"},
     {"unknown key in a vector", "[0, 0, 0]", "{\"x\": 0, \"y\": 0, \"z\": 0, \"w\": 0}",
@@ -76,7 +76,7 @@ inline constexpr BadScene bad_syntax[] = {
      "\"mesh\" or \"bezier_rotate\", got \"torus\""},
     {"key of another object", "\"type\": \"rectangle\"", "\"type\": \"rectangle\", \"radius\": 1",
      "scene.json:7: /objects/0/radius: unknown key \"radius\"; use one of \"type\", \"transform\", "
-     "\"texture\" or \"material\""},
+     "\"motion\", \"texture\" or \"material\""},
 };
 
 }  // namespace causticl

@@ -78,6 +78,19 @@ inline std::vector<EffectScene> effect_scenes() {
        "environment /lights/0"},
       {"delta_lights", with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [1, 1, 1]})"),
        with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [0, 0, 0]})"), "light /lights/0"},
+      with_ball("absorption", R"({"type": "glass", "absorption": [0, 1, 2]})",
+                R"({"type": "glass", "absorption": [0, 0, 0]})", "absorption of /objects/2/material"),
+      with_ball("dispersion", R"({"type": "glass", "cauchy": [1.5, 0.01]})",
+                R"({"type": "glass", "cauchy": [1.5, 0]})", "cauchy of /objects/2/material"),
+      {"motion",
+       effect_scene(
+           R"({"type": "sphere", "radius": 1, "material": {"type": "diffuse"}, "motion": {"shift": [1, 0, 0]}})"),
+       effect_scene(
+           R"({"type": "sphere", "radius": 1, "material": {"type": "diffuse"}, "motion": {"shift": [1, 0, 0]}})",
+           R"(, "shutter": [0.5, 0.5])"),
+       "motion of /objects/2"},
+      {"medium", R"({"medium": {"scattering": [0.1, 0.1, 0.1]}, )" + plain.substr(1),
+       R"({"medium": {"scattering": [0, 0, 0]}, )" + plain.substr(1), "/medium"},
   };
 }
 

@@ -39,6 +39,10 @@ const std::vector<Budget> budgets{
     {"effects/sky.json", 400, 60000, 16384, 32, 20, 0.15},
     {"effects/spot_caustic.json", 200, 60000, 4096, 64, 40, 0.08, {"materials.ball"}},
     {"effects/sun.json", 96, 100000, 1024, 64, 40, 0.1, {"materials.glass", "materials.blue"}},
+    {"effects/coloured_glass.json", 1600, 30000, 16384, 64, 40, 0.1},
+    {"effects/prism.json", 4000, 30000, 40000, 32, 20, 0.1},
+    {"effects/moving_balls.json", 1600, 30000, 16384, 64, 40, 0.1},
+    {"effects/fog.json", 1600, 30000, 16384, 64, 40, 0.2},
 };
 
 Scene scene_of(const Budget& budget, int width, int height) {

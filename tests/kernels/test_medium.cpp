@@ -1,0 +1,251 @@
+// The medium: phase function, free flight, and photons gathered in a volume.
+#include "chi_square_check.hpp"
+#include "photon_grid.hpp"
+#include "vector_inputs.hpp"
+
+using namespace causticl;
+
+namespace {
+
+const char* const source = R"(
+#include "gather.cl"
+#include "pass_grid.cl"
+// x: g, y: cosine, out: density.
+kernel void phase(global const float2 *in, global float *out, uint count) {
+  uint i = get_global_id(0);
+  if (i < count) out[i] = phase_density(in[i].x, in[i].y);
+}
+kernel void turn(global const float4 *uniform, global float4 *out, uint count, float4 direction, float g) {
+  uint i = get_global_id(0);
+  if (i < count) out[i] = (float4)(phase_sample(g, direction.xyz, uniform[i].xy), 0);
+}
+typedef struct {
+  float4 carried;     // w: random number that chooses the channel
+  float4 extinction;  // w: random number that chooses the distance
+  float4 end;         // x: t_max
+} Flight;
+kernel void fly(global const Flight *in, global float4 *out, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Medium medium = {in[i].extinction.xyz, (real3)(0, 0, 0), 0};
+  real3 carried = in[i].carried.xyz;
+  real distance = -1;
+  bool interacts = medium_flight(&medium, in[i].end.x, (real2)(in[i].carried.w, in[i].extinction.w), &carried, &distance);
+  out[i] = (float4)(carried, interacts ? distance : -1);
+}
+kernel void pack(global const float4 *in, global float4 *out, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  uint packed = direction_pack(in[i].xyz);
+  out[i] = (float4)(direction_unpack(packed), packed & IN_MEDIUM ? 1 : 0);
+}
+kernel void collect(Grid grid, global const uint *starts, global const uint *sorted, global const float4 *points,
+                    global ulong4 *out, uint count, float4 direction, float g, float radius2) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Gathered sum = gather_medium(grid, starts, sorted, points[i].xyz, direction.xyz, g, radius2);
+  out[i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+}
+kernel void directions(global const float4 *in, global uint *out, uint count) {
+  uint i = get_global_id(0);
+  if (i < count) out[i] = direction_pack(in[i].xyz);
+}
+)";
+
+cl::Program& program() {
+  static cl::Program built = build_test_program(source);
+  return built;
+}
+
+double phase_oracle(double g, double cosine) {
+  return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+}  // namespace
+
+TEST_CASE("the phase function is Henyey and Greenstein's") {
+  RandomInputs random(221);
+  std::vector<float2> inputs(1 << 18);
+  for (auto& input : inputs)
+    input = {static_cast<float>(random.uniform(-0.99, 0.99)), static_cast<float>(random.uniform(-1, 1))};
+  inputs[0] = {0, 0.5f};
+  inputs[1] = {0.99f, 1};
+  inputs[2] = {-0.99f, -1};
+  auto in = test_device().upload(inputs, "inputs");
+  auto out = test_device().buffer(inputs.size() * sizeof(float), "outputs");
+  run_kernel(program(), "phase", inputs.size(), in, out, cl_uint(inputs.size()));
+  const auto found = test_device().download<float>(out, inputs.size());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double exact = phase_oracle(inputs[i].x, inputs[i].y);
+    wrong += !(std::fabs(found[i] - exact) <= 2e-5 * exact);  // 1 - |g| loses up to seven bits
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("directions in the medium follow the phase function") {
+  constexpr std::size_t count = 1 << 20;
+  const double values[] = {0, 1e-6, 0.4, -0.7, 0.95};
+  for (const double g : values) {
+    RandomInputs random(222);
+    const Vec3 axis = random_direction(random);
+    auto in = test_device().upload(uniform_tuples(random, count), "numbers");
+    auto out = test_device().buffer(count * sizeof(float4), "directions");
+    run_kernel(program(), "turn", count, in, out, cl_uint(count), to_float4(axis), static_cast<float>(g));
+    // Bins of equal probability in the distribution of the cosine, by its closed form.
+    const auto below = [&](double cosine) {
+      if (std::fabs(g) < 1e-3) return (1 + cosine) / 2 + g * 0.75 * (cosine * cosine - 1);
+      return (1 - g * g) / (2 * g) * (1 / std::sqrt(1 + g * g - 2 * g * cosine) - 1 / (1 + g));
+    };
+    const SquareBins bins{24, 16};
+    Histogram histogram(bins.count());
+    histogram.probabilities.assign(bins.count(), 1.0 / static_cast<double>(bins.count()));
+    const Frame frame(axis);
+    std::size_t wrong = 0;
+    for (const auto& direction : test_device().download<float4>(out, count)) {
+      const Vec3 local = frame.to_local(to_vec3(direction));
+      wrong += !(std::fabs(length(local) - 1) < 1e-6);
+      histogram.add(bins.bin(std::clamp(below(std::clamp(local.z, -1.0, 1.0)), 0.0, 0.9999999),
+                             turn(local.y, local.x)));
+    }
+    CHECK(wrong == 0);
+    check_chi_square(histogram, 5, "g = " + std::to_string(g));
+  }
+}
+
+TEST_CASE(
+    "free flight weighs every distance by transmittance over its density, and loses nothing on average") {
+  struct Flight {
+    float4 carried, extinction, end;
+  };
+  constexpr std::size_t count = 1 << 20;
+  RandomInputs random(223);
+  std::vector<Flight> inputs(count);
+  for (auto& input : inputs) {
+    const auto channel = [&] { return random.uniform() < 0.2 ? 0.0 : random.uniform(); };
+    input.carried = to_float4({channel(), channel(), channel()}, uniform24(random));
+    input.extinction = to_float4({3 * channel(), 3 * channel(), 3 * channel()}, uniform24(random));
+    input.end.x = random.uniform() < 0.1 ? INFINITY : static_cast<float>(random.uniform(0, 3));
+  }
+  auto in = test_device().upload(inputs, "inputs");
+  auto out = test_device().buffer(count * sizeof(float4), "outputs");
+  run_kernel(program(), "fly", count, in, out, cl_uint(count));
+  const auto outputs = test_device().download<float4>(out, count);
+  std::size_t wrong = 0, grown = 0, interactions = 0;
+  // What passes the end, over what should: by transmittance to it. What interacts, over what is taken away.
+  double passed[3] = {}, passes[3] = {}, taken[3] = {}, takes[3] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 carried = to_vec3(inputs[i].carried), extinction = to_vec3(inputs[i].extinction),
+               found = to_vec3(outputs[i]);
+    const double sum = carried.x + carried.y + carried.z, end = inputs[i].end.x, distance = outputs[i].w;
+    const bool interacts = distance >= 0;
+    interactions += interacts;
+    if (sum == 0 || max_component(extinction) == 0) {
+      wrong += interacts || !(found == carried);
+      continue;
+    }
+    const auto left = [&](int c, double t) {
+      return extinction[c] == 0 ? 1.0 : std::exp(-extinction[c] * t);
+    };
+    double density = 0, after = 0;
+    for (int c = 0; c < 3; ++c)
+      density += carried[c] / sum * (interacts ? extinction[c] * left(c, distance) : left(c, end));
+    for (int c = 0; c < 3; ++c) {
+      const double exact = carried[c] * left(c, interacts ? distance : end) / density;
+      wrong += !(std::fabs(found[c] - exact) <= 3e-5 * exact + 1e-30);
+      after += interacts ? found[c] * extinction[c] : found[c];
+      (interacts ? taken : passed)[c] += interacts ? found[c] * extinction[c] : found[c];
+      passes[c] += carried[c] * left(c, end);
+      takes[c] += carried[c] * (1 - left(c, end));
+    }
+    wrong += interacts && !(distance < end);
+    grown += !(after <= sum * (1 + 1e-5));
+  }
+  CHECK(wrong == 0);
+  CHECK(grown == 0);
+  CHECK(interactions > count / 3);
+  for (int c = 0; c < 3; ++c) {
+    // Each sample is at most 3, so that a sum of a million has a standard deviation below 1,500.
+    CHECK(std::fabs(passed[c] - passes[c]) < 5 * 1500);
+    CHECK(std::fabs(taken[c] - takes[c]) < 5 * 1500);
+  }
+}
+
+TEST_CASE("directions are packed to two ten-thousandths, and marked") {
+  RandomInputs random(224);
+  std::vector<float4> inputs;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      Vec3 d;
+      d[axis] = sign;
+      inputs.push_back(to_float4(d));
+    }
+  while (inputs.size() < (1 << 18)) inputs.push_back(to_float4(random_direction(random)));
+  auto in = test_device().upload(inputs, "directions");
+  auto out = test_device().buffer(inputs.size() * sizeof(float4), "directions");
+  run_kernel(program(), "pack", inputs.size(), in, out, cl_uint(inputs.size()));
+  const auto found = test_device().download<float4>(out, inputs.size());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    wrong += !(length(to_vec3(found[i]) - to_vec3(inputs[i])) < 2e-4) || found[i].w != 1;
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("photons of the medium are gathered as brute force does, and those on surfaces are left out") {
+  RandomInputs random(225);
+  constexpr std::size_t photon_count = 20000, point_count = 500;
+  std::vector<float4> directions(photon_count);
+  for (auto& direction : directions) direction = to_float4(random_direction(random));
+  auto in = test_device().upload(directions, "directions");
+  auto words = test_device().buffer(photon_count * sizeof(cl_uint), "words");
+  run_kernel(program(), "directions", photon_count, in, words, cl_uint(photon_count));
+  const auto packed = test_device().download<cl_uint>(words, photon_count);
+  std::vector<Photon> photons(photon_count);
+  const auto coordinate = [&] { return static_cast<float>(random.uniform(-1, 1)); };
+  for (std::size_t i = 0; i < photon_count; ++i) {
+    photons[i] = {{coordinate(), coordinate(), coordinate()},
+                  packed[i],
+                  static_cast<uint>(random.engine()),
+                  static_cast<uint>(random.engine()) & 0xffffu};
+    if (i % 3 == 0) photons[i].normal &= 0xffffffu;
+  }
+  std::vector<float4> points(point_count);
+  for (auto& point : points) point = {coordinate(), coordinate(), coordinate(), 0};
+  const Vec3 towards = random_direction(random);
+  for (const auto& [g, radius] : {std::pair{0.0, 0.1}, {0.6, 0.3}, {-0.9, 0.2}}) {
+    const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 9, 9, 9, photon_count);
+    const auto sorted = sort_photons(test_device(), program(), photons, grid);
+    auto where = test_device().upload(points, "points");
+    auto out = test_device().buffer(point_count * 4 * sizeof(cl_ulong), "sums");
+    const auto radius2 = static_cast<float>(radius * radius);
+    run_kernel(program(), "collect", point_count, grid, sorted.starts, sorted.sorted, where, out,
+               cl_uint(point_count), to_float4(towards), static_cast<float>(g), radius2);
+    const auto sums = test_device().download<cl_ulong>(out, 4 * point_count);
+    const double peak = phase_oracle(std::fabs(g), 1);
+    std::size_t wrong = 0, found = 0;
+    for (std::size_t p = 0; p < point_count; ++p) {
+      double red = 0, blue = 0;
+      std::size_t inside = 0, border = 0;
+      for (std::size_t i = 0; i < photon_count; ++i) {
+        if (i % 3 == 0) continue;
+        const Vec3 d =
+            Vec3{photons[i].position[0], photons[i].position[1], photons[i].position[2]} - to_vec3(points[p]);
+        border += std::fabs(dot(d, d) - radius2) < 1e-6 * radius2;
+        if (dot(d, d) > radius2) continue;
+        ++inside;
+        const double share = phase_oracle(g, dot(to_vec3(directions[i]), to_vec3(to_float4(towards)))) / peak;
+        red += share * (photons[i].flux_rg & 0xffffu);
+        blue += share * photons[i].flux_b;
+      }
+      found += inside;
+      if (border) continue;
+      const double unit = 16777216;
+      // Packed directions are a ten-thousandth off, of which the phase function near its peak makes more.
+      wrong += sums[4 * p + 3] != inside || !(std::fabs(sums[4 * p] / unit - red) <= 2e-3 * red + 0.01) ||
+               !(std::fabs(sums[4 * p + 2] / unit - blue) <= 2e-3 * blue + 0.01);
+    }
+    CAPTURE(g, radius);
+    CHECK(found > point_count);
+    CHECK(wrong == 0);
+  }
+}
