@@ -28,6 +28,9 @@ std::string encode_exr(const Picture& picture, const Metadata& metadata);
 /// Whether the bytes begin as a PFM file does.
 bool is_pfm(const std::string& bytes);
 
+/// Clamp to [0, 1], power 1/2.2, 8 bits a channel. Throws std::runtime_error.
+std::string encode_png(const Picture& picture);
+
 /// PFM, colour (PF) or grey (Pf), of either byte order. Throws std::runtime_error.
 Picture decode_pfm(const std::string& bytes);
 

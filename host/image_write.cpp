@@ -28,6 +28,8 @@ unsigned char tone_map(float value) {
   return static_cast<unsigned char>(std::lround(255.0f * std::pow(clamped, 1 / 2.2f)));
 }
 
+}  // namespace
+
 std::string encode_png(const Picture& picture) {
   std::vector<unsigned char> pixels(picture.rgb.size());
   std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(), tone_map);
@@ -39,8 +41,6 @@ std::string encode_png(const Picture& picture) {
     throw std::runtime_error("the PNG encoder failed");
   return bytes;
 }
-
-}  // namespace
 
 void check_output(const std::string& file) {
   const std::string extension = lower_extension(file);

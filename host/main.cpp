@@ -91,6 +91,16 @@ int compare(const Options& options) {
   return done;
 }
 
+int study(const Options& options) {
+  interruption_listen(options.quiet);
+  const auto say = [&](const std::string& line) {
+    if (!options.quiet) std::fprintf(stderr, "causticl: %s\n", line.c_str());
+  };
+  const StudyOutcome outcome = run_study(options, say, interruption_requested);
+  std::fputs(outcome.summary.c_str(), stdout);
+  return outcome.interrupted ? interrupted : done;
+}
+
 int print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return done;
@@ -108,6 +118,8 @@ int run(const Options& options) {
       return print(scene_summary(load_scene(options.scene, options.scene_options)));
     case Options::Command::compare:
       return compare(options);
+    case Options::Command::study:
+      return study(options);
     case Options::Command::selftest:
       return selftest(options);
     case Options::Command::print:

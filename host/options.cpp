@@ -1,87 +1,17 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
-#include <filesystem>
 
 #include "error.hpp"
+#include "option_checks.hpp"
+#include "study_knobs.hpp"
 
 namespace causticl {
 namespace {
 
-constexpr int largest_int = 2147483647;
-constexpr int largest_extent = 65536;  // pixels of an edge
 const std::string exit_codes =
     "Exit codes: 0 done, 1 a fault of causticl, 2 of the input, 3 of the device,\n"
     "130 interrupted, with the image written.";
-
-/// The whole of `text` as a number, if it is one.
-template <typename T>
-std::optional<T> number(const std::string& text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || text.empty()) return {};
-  return value;
-}
-
-/// "2%" or "0.02" as a share between 0 and `below`.
-std::optional<double> parse_share(std::string text, double below) {
-  const bool percent = !text.empty() && text.back() == '%';
-  if (percent) text.pop_back();
-  auto value = number<double>(text);
-  if (value && percent) *value /= 100;
-  return value && *value > 0 && *value < below ? value : std::nullopt;
-}
-
-std::optional<std::pair<int, int>> parse_size(const std::string& text) {
-  const auto cross = text.find_first_of("xX");
-  if (cross == std::string::npos) return {};
-  const auto width = number<int>(text.substr(0, cross)), height = number<int>(text.substr(cross + 1));
-  if (!width || !height || *width < 1 || *height < 1 || *width > largest_extent || *height > largest_extent)
-    return {};
-  return std::pair{*width, *height};
-}
-
-/// A validator that says what was expected and what was found. It sees the text before CLI11 converts it, so
-/// that every fault of a value gets a message of this one form.
-template <typename Accepts>
-CLI::Validator expect(const std::string& expected, Accepts accepts) {
-  return CLI::Validator(
-      [=](std::string& text) {
-        return accepts(text) ? std::string() : "expected " + expected + ", found '" + text + "'";
-      },
-      "");
-}
-
-CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
-  const auto accepts = [=](const std::string& text) {
-    const auto value = number<std::int64_t>(text);
-    return value && *value >= low && *value <= high;
-  };
-  return expect("a whole number from " + std::to_string(low) + " to " + std::to_string(high), accepts);
-}
-
-const auto is_seconds = [](const std::string& text) {
-  const auto value = number<double>(text);
-  return value && std::isfinite(*value) && *value > 0;
-};
-const auto is_error = [](const std::string& text) { return parse_share(text, 10).has_value(); };
-const auto is_confidence = [](const std::string& text) { return parse_share(text, 1).has_value(); };
-const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
-const auto is_override = [](const std::string& text) {
-  const auto equals = text.find('=');
-  return equals != std::string::npos && equals > 0;
-};
-const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
-const auto is_precision = [](const std::string& text) { return text == "float" || text == "double"; };
-const auto is_triangle_test = [](const std::string& text) {
-  return text == "watertight" || text == "precomputed";
-};
-const auto is_folder = [](const std::string& text) {
-  std::error_code unreadable;
-  return std::filesystem::is_directory(text, unreadable);
-};
 
 /// What CLI11 leaves as text.
 struct Texts {
@@ -224,6 +154,37 @@ void add_explain_options(CLI::App& app, Options& options) {
   app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
 }
 
+/// What a study measures, for how long and where it goes.
+void add_study_options(CLI::App& app, Options& options) {
+  StudyOptions& study = options.study;
+  app.add_option("-o,--output", study.folder,
+                 "folder for study.html, study.csv and study.json; default: the\n"
+                 "scene's name with -study in the working directory")
+      ->type_name("FOLDER");
+  app.add_option("--budget", study.budget, "time that all of it may take; 300 by default")
+      ->check(expect("a positive number of seconds", is_seconds))
+      ->type_name("SECONDS");
+  std::string names;
+  for (const Knob& knob : study_knobs()) names += (names.empty() ? "" : ", ") + std::string(knob.name);
+  app.add_option("--knobs", study.knobs, "only these, with commas between them:\n" + wrapped(names, 52))
+      ->delimiter(',')
+      ->type_name("LIST")
+      ->allow_extra_args(false);
+  app.add_option("--seeds", study.seeds, "renders of each setting, as far as there is time; default: 3")
+      ->check(whole_number(2, 16))
+      ->type_name("N");
+  app.add_option("--reference", study.reference,
+                 "picture to measure errors against, of the same size; default:\n"
+                 "the study renders its own, within the budget")
+      ->type_name("FILE");
+  app.add_flag("--restart", study.restart, "throw away the study that the folder holds")
+      ->disable_flag_override();
+  app.add_option("--seed", options.seed, "of the first render of each setting; 1 by default")
+      ->check(whole_number(0, 4000000000))
+      ->type_name("N");
+  app.add_flag("--quiet", options.quiet, "print nothing but errors and the summary")->disable_flag_override();
+}
+
 /// Two pictures and where their difference goes.
 void add_compare_options(CLI::App& app, Options& options) {
   app.add_option("PICTURE", options.picture, "what was rendered: .exr, .pfm or .png")
@@ -295,6 +256,15 @@ Options parse_options(int argc, const char* const* argv) {
       "renders and half the distance of the quartiles. Without --measure no device is asked for.");
   CLI::App& compare = *app.add_subcommand("compare", "Say how far a picture is from a reference");
   add_compare_options(compare, options);
+  CLI::App& study =
+      *app.add_subcommand("study", "Measure what accuracy costs in time, and recommend settings");
+  add_scene_options(study, options, texts);
+  add_study_options(study, options);
+  add_device_options(study, options);
+  study.footer(
+      "A study that was interrupted or killed goes on where it was when it is started again; a larger\n"
+      "--budget then adds to it. Without --size, pictures have at most about 25,600 pixels.\n" +
+      exit_codes);
   CLI::App& selftest = *app.add_subcommand("selftest", "Check the numerics of the kernels on this device");
   add_selftest_options(selftest, options);
   add_device_options(selftest, options);
@@ -319,6 +289,7 @@ Options parse_options(int argc, const char* const* argv) {
                     : info.parsed()    ? Options::Command::info
                     : explain.parsed() ? Options::Command::explain
                     : compare.parsed() ? Options::Command::compare
+                    : study.parsed()   ? Options::Command::study
                                        : Options::Command::selftest;
   options.selftest.threads = options.threads;
   options.selftest.kernel_dir = options.kernel_dir;

@@ -10,11 +10,12 @@
 #include "render.hpp"
 #include "scene.hpp"
 #include "selftest.hpp"
+#include "study.hpp"
 
 namespace causticl {
 
 struct Options {
-  enum class Command { render, compare, devices, explain, info, selftest, print };
+  enum class Command { render, compare, devices, explain, info, study, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
@@ -40,6 +41,7 @@ struct Options {
   std::string picture, reference;  // files; compare
   std::string error_map;           // file; empty: none
 
+  StudyOptions study;
   SelftestOptions selftest;
   bool measure = false;  // explain
   std::string json;      // file for what explain, selftest or compare found; empty: none

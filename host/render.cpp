@@ -76,6 +76,12 @@ class Checkpoints {
 // With fewer passes the estimate of the error is too noisy to stop by.
 constexpr std::uint64_t fewest_passes = 8;
 
+/// 1, 2, 3, 4, 6, 8, 12, 16, ...: two a doubling.
+bool snapshot_due(std::uint64_t passes) {
+  while (passes > 3 && passes % 2 == 0) passes /= 2;
+  return passes <= 3;
+}
+
 std::uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -201,11 +207,15 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
     watch.update(pass + 1);
+    statistics.pass_seconds += this_pass;
+    if (options.snapshot && snapshot_due(pass + 1))
+      options.snapshot({pass + 1, totals.photons_emitted, statistics.pass_seconds, film.picture(pass + 1)});
     if (progress) {
       const double per_pass = seconds_since(loop_start) / static_cast<double>(pass + 1);
       double remaining = per_pass * static_cast<double>(wanted - pass - 1);
       if (options.time_limit) remaining = std::min(remaining, std::max(0.0, *options.time_limit - elapsed));
       Progress now{pass + 1, wanted, elapsed, remaining, {}, 0, totals.photons_emitted, totals.rays};
+      now.pass_seconds = statistics.pass_seconds;
       if (watch.last()) {
         now.error = watch.last()->error;
         now.seconds_to_half = per_pass * watch.passes_until(*now.error / 2, pass + 1);

@@ -18,6 +18,13 @@
 
 namespace causticl {
 
+/// A render as it stands after some passes.
+struct Snapshot {
+  std::uint64_t passes, photons;  // so far
+  double seconds;                 // of the passes alone
+  const Picture& picture;
+};
+
 /// What bounds a render and where its picture goes.
 struct RenderOptions {
   std::vector<std::string> outputs;    // files, by extension; rewritten at checkpoints
@@ -32,6 +39,8 @@ struct RenderOptions {
   std::string kernel_dir;        // --kernel-dir: read cl/ live; empty: the embedded sources
   bool skip_passes = true;       // leave out the passes that cannot change the picture (plan_passes)
   std::string dump_kernels;      // --dump-kernels: folder that receives what was built; empty: none
+  /// Called after passes 1, 2, 3, 4, 6, 8, 12, 16, ...; its own time does not count as that of passes.
+  std::function<void(const Snapshot&)> snapshot;
 };
 
 /// Where a render stands, after each pass.
@@ -42,6 +51,7 @@ struct Progress {
   std::optional<double> error;          // estimated, of the picture; none where it is not known yet
   double seconds_to_half = 0;           // until half that error; infinite where there is no end in sight
   std::uint64_t photons = 0, rays = 0;  // so far
+  double pass_seconds = 0;              // of the passes alone, without start-up, writing and snapshots
 };
 
 /// A pass and its program.
@@ -65,6 +75,7 @@ struct Statistics {
   double first_pass_done_seconds = 0;
   double kernel_build_seconds = 0;  // of all programs
   std::vector<PassStatistics> pass_programs;
+  double pass_seconds = 0;  // of the passes alone, without start-up, writing and snapshots
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;  // estimated; none after a single pass and of a black picture

@@ -7,6 +7,7 @@ build_packages=(g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-hea
 test_packages=(catch2 clang-format)
 lint_packages=(clang-tidy)
 bench_packages=(libembree-dev)
+page_packages=(chromium python3)
 
 fail() {
   echo "error: $*" >&2

@@ -1,0 +1,10 @@
+# Writes OUTPUT: a C++ source that holds the parts of a study's page, from DIR, as strings.
+set(text "#include \"study_page.hpp\"\n\nnamespace causticl {\n\n")
+foreach(part html css plot.js js)
+  file(READ ${DIR}/study_page.${part} body)
+  string(REPLACE "." "_" name ${part})
+  string(APPEND text "const char* const study_page_${name} = R\"__page__(${body})__page__\";\n")
+endforeach()
+string(APPEND text "\n}  // namespace causticl\n")
+file(WRITE ${OUTPUT}.new "${text}")
+file(RENAME ${OUTPUT}.new ${OUTPUT})

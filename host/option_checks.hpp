@@ -1,0 +1,100 @@
+// Checks of what stands on the command line: each says what was expected and what was found.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace causticl {
+
+constexpr int largest_int = 2147483647;
+constexpr int largest_extent = 65536;  // pixels of an edge
+
+/// The whole of `text` as a number, if it is one.
+template <typename T>
+std::optional<T> number(const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty()) return {};
+  return value;
+}
+
+/// "2%" or "0.02" as a share between 0 and `below`.
+inline std::optional<double> parse_share(std::string text, double below) {
+  const bool percent = !text.empty() && text.back() == '%';
+  if (percent) text.pop_back();
+  auto value = number<double>(text);
+  if (value && percent) *value /= 100;
+  return value && *value > 0 && *value < below ? value : std::nullopt;
+}
+
+inline std::optional<std::pair<int, int>> parse_size(const std::string& text) {
+  const auto cross = text.find_first_of("xX");
+  if (cross == std::string::npos) return {};
+  const auto width = number<int>(text.substr(0, cross)), height = number<int>(text.substr(cross + 1));
+  if (!width || !height || *width < 1 || *height < 1 || *width > largest_extent || *height > largest_extent)
+    return {};
+  return std::pair{*width, *height};
+}
+
+/// A validator that says what was expected and what was found. It sees the text before CLI11 converts it, so
+/// that every fault of a value gets a message of this one form.
+template <typename Accepts>
+CLI::Validator expect(const std::string& expected, Accepts accepts) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        return accepts(text) ? std::string() : "expected " + expected + ", found '" + text + "'";
+      },
+      "");
+}
+
+inline CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
+  const auto accepts = [=](const std::string& text) {
+    const auto value = number<std::int64_t>(text);
+    return value && *value >= low && *value <= high;
+  };
+  return expect("a whole number from " + std::to_string(low) + " to " + std::to_string(high), accepts);
+}
+
+inline const auto is_seconds = [](const std::string& text) {
+  const auto value = number<double>(text);
+  return value && std::isfinite(*value) && *value > 0;
+};
+inline const auto is_error = [](const std::string& text) { return parse_share(text, 10).has_value(); };
+inline const auto is_confidence = [](const std::string& text) { return parse_share(text, 1).has_value(); };
+inline const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
+inline const auto is_override = [](const std::string& text) {
+  const auto equals = text.find('=');
+  return equals != std::string::npos && equals > 0;
+};
+inline const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
+inline const auto is_precision = [](const std::string& text) { return text == "float" || text == "double"; };
+inline const auto is_triangle_test = [](const std::string& text) {
+  return text == "watertight" || text == "precomputed";
+};
+inline const auto is_folder = [](const std::string& text) {
+  std::error_code unreadable;
+  return std::filesystem::is_directory(text, unreadable);
+};
+
+/// `text` with line breaks in place of spaces, so that no line is longer than `width`.
+inline std::string wrapped(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t word = end - begin;
+    if (line > 0) result += line + 1 + word > width ? '\n' : ' ';
+    line = line > 0 && line + 1 + word <= width ? line + 1 + word : word;
+    result += text.substr(begin, word);
+    begin = end + 1;
+  }
+  return result;
+}
+
+}  // namespace causticl

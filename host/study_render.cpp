@@ -1,0 +1,108 @@
+#include "study_render.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "compare.hpp"
+#include "render_setup.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr int endless = 1 << 30;  // passes
+
+StudySample sample_of(std::uint64_t passes, std::uint64_t photons, double seconds, const Picture& picture,
+                      const Picture& reference) {
+  const Comparison comparison = compare_pictures(picture, reference);
+  StudySample sample;
+  sample.passes = passes;
+  sample.photons = photons;
+  sample.seconds = seconds;
+  sample.relative_mse = comparison.relative_mse;
+  sample.error_90 = comparison.error_90;
+  sample.flip = comparison.flip;
+  sample.mean = comparison.mean;
+  return sample;
+}
+
+/// What decides which kernels a render compiles, besides the scene's objects and materials. PoCL compiles
+/// them anew for launches of more than 65,535 work-items.
+std::string kernels_of(const Scene& scene, const Options& options) {
+  const RendererSpec& renderer = scene.renderer;
+  std::string kernels = name_of(options.precision);
+  kernels += options.triangle_test == TriangleTest::precomputed ? " precomputed" : " watertight";
+  if (renderer.integrator == Integrator::pt) return kernels + " pt";
+  kernels += renderer.direct_light == DirectLight::photons ? " photons" : " shadow_rays";
+  return kernels + (renderer.photons > 65535 ? " many" : " few");
+}
+
+}  // namespace
+
+StudyRenderer::StudyRenderer(const Options& options, std::vector<std::string> words)
+    : options_(options), words_(std::move(words)) {}
+
+Options StudyRenderer::options_of(const std::vector<std::string>& words) const {
+  std::vector<std::string> all{"causticl", "render", options_.scene};
+  all.insert(all.end(), words_.begin(), words_.end());
+  all.insert(all.end(), words.begin(), words.end());
+  std::vector<const char*> arguments;
+  for (const auto& word : all) arguments.push_back(word.c_str());
+  Options result = parse_options(static_cast<int>(arguments.size()), arguments.data());
+  result.threads = options_.threads;
+  result.kernel_dir = options_.kernel_dir;
+  return result;
+}
+
+MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t seed,
+                                     const Picture* reference, const StopAsked& stop) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const Options options = options_of(setting.words);
+  Scene scene = load_scene(options.scene, options.scene_options);
+  apply_options(options, scene);
+  RenderOptions render = render_options(options, {});
+  render.seed = seed;
+  const DeviceInfo device_info = find_device(options_.device);
+
+  const std::string kernels = kernels_of(scene, options);
+  if (std::find(warm_.begin(), warm_.end(), kernels) == warm_.end()) {
+    Device device(device_info, options_.threads);
+    Scene brief = scene;
+    brief.renderer.passes = brief.renderer.samples = 1;
+    render_scene(brief, device, render);
+    warm_.push_back(kernels);
+  }
+
+  MeasuredRender result;
+  result.run.knob = setting.knob;
+  result.run.value = setting.value;
+  result.run.seed = seed;
+  scene.renderer.passes = scene.renderer.samples = endless;
+  Device device(device_info, options_.threads);
+  if (reference)
+    render.snapshot = [&](const Snapshot& now) {
+      result.run.samples.push_back(sample_of(now.passes, now.photons, now.seconds, now.picture, *reference));
+    };
+  double before = 0;
+  bool stopping = false;
+  const auto look = [&](const Progress& now) {
+    stopping = stop({now.pass_seconds, now.pass_seconds - before, result.run});
+    before = now.pass_seconds;
+  };
+  RenderResult rendered = render_scene(scene, device, render, look, {}, [&] { return stopping; });
+  const Statistics& statistics = rendered.statistics;
+  if (reference && (result.run.samples.empty() || result.run.samples.back().passes != statistics.passes))
+    result.run.samples.push_back(sample_of(statistics.passes, statistics.photons, statistics.pass_seconds,
+                                           rendered.picture, *reference));
+  for (const auto& [kernel, time] : statistics.kernels)
+    result.run.kernel_milliseconds[kernel] = time.milliseconds;
+  result.run.setup_seconds = statistics.first_pass_seconds;
+  result.picture = std::move(rendered.picture);
+  result.first_radius = statistics.first_radius;
+  result.pass_seconds = statistics.pass_seconds;
+  result.passes = statistics.passes;
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+}  // namespace causticl

@@ -1,0 +1,248 @@
+#include "study_store.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "error.hpp"
+#include "output_file.hpp"
+
+namespace causticl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The shortest text that reads back as the same number.
+std::string exact(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return error == std::errc() ? std::string(text, end) : std::string("nan");
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + "\"";
+}
+
+/// JSON has no infinity: a picture with pixels that are not finite has the error null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
+Json json_of(const StudySample& sample) {
+  return {{"passes", sample.passes},
+          {"photons", sample.photons},
+          {"seconds", sample.seconds},
+          {"relative_mse", number(sample.relative_mse)},
+          {"error_90", number(sample.error_90)},
+          {"flip", number(sample.flip)},
+          {"mean", number(sample.mean)}};
+}
+
+StudySample sample_of(const Json& json) {
+  StudySample sample;
+  sample.passes = json.at("passes");
+  sample.photons = json.at("photons");
+  sample.seconds = json.at("seconds");
+  sample.relative_mse = number(json.at("relative_mse"));
+  sample.error_90 = number(json.at("error_90"));
+  sample.flip = number(json.at("flip"));
+  sample.mean = number(json.at("mean"));
+  return sample;
+}
+
+Json json_of(const StudyRun& run) {
+  Json samples = Json::array();
+  for (const auto& sample : run.samples) samples.push_back(json_of(sample));
+  return {{"knob", run.knob},
+          {"value", run.value},
+          {"seed", run.seed},
+          {"long", run.is_long},
+          {"setup_seconds", run.setup_seconds},
+          {"kernel_milliseconds", run.kernel_milliseconds},
+          {"samples", samples}};
+}
+
+StudyRun run_of(const Json& json) {
+  StudyRun run;
+  run.knob = json.at("knob");
+  run.value = json.at("value");
+  run.seed = json.at("seed");
+  run.is_long = json.at("long");
+  run.setup_seconds = json.at("setup_seconds");
+  run.kernel_milliseconds = json.at("kernel_milliseconds").get<std::map<std::string, double>>();
+  for (const auto& sample : json.at("samples")) run.samples.push_back(sample_of(sample));
+  return run;
+}
+
+Study study_of(const Json& json) {
+  Study study;
+  study.scene = json.at("scene");
+  study.scene_hash = json.at("scene_hash");
+  study.version = json.at("version");
+  study.device = json.at("device");
+  study.words = json.at("words").get<std::vector<std::string>>();
+  study.width = json.at("width");
+  study.height = json.at("height");
+  study.seed = json.at("seed");
+  study.threads = json.at("threads");
+  study.given_reference = json.at("given_reference");
+  study.date = json.at("date");
+  study.first_radius = json.at("first_radius");
+  study.run_seconds = json.at("run_seconds");
+  study.seeds = json.at("seeds");
+  for (const auto& setting : json.at("settings"))
+    study.settings.push_back({setting.at("knob"), setting.at("value"),
+                              setting.at("words").get<std::vector<std::string>>(),
+                              setting.at("path_traced")});
+  study.own_values = json.at("own_values").get<std::map<std::string, std::string>>();
+  study.bases = json.at("bases").get<std::map<std::string, std::string>>();
+  study.left_out = json.at("left_out").get<std::vector<std::string>>();
+  study.spent_seconds = json.at("spent_seconds");
+  if (const auto& reference = json.at("reference"); !reference.is_null())
+    study.reference = StudyReference{reference.at("how"), reference.at("relative_mse"),
+                                     reference.at("error_90"), reference.at("mean"), reference.at("seconds")};
+  for (const auto& run : json.at("runs")) study.runs.push_back(run_of(run));
+  return study;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+const StudySetting* Study::setting(const std::string& knob, const std::string& value) const {
+  for (const auto& candidate : settings)
+    if (candidate.knob == knob && candidate.value == value) return &candidate;
+  return nullptr;
+}
+
+const StudyRun* Study::run(const StudySetting& of, std::uint32_t with_seed, bool is_long) const {
+  for (const auto& candidate : runs)
+    if (candidate.knob == of.knob && candidate.value == of.value && candidate.seed == with_seed &&
+        candidate.is_long == is_long)
+      return &candidate;
+  return nullptr;
+}
+
+std::string study_csv(const Study& study) {
+  std::ostringstream text;
+  text << "knob,value,seed,long,passes,photons,seconds,relative_mse,relative_rmse,error_90,flip,mean\n";
+  for (const auto& run : study.runs)
+    for (const auto& sample : run.samples) {
+      text << quoted(run.knob) << "," << quoted(run.value) << "," << run.seed << "," << run.is_long << ","
+           << sample.passes << "," << sample.photons;
+      for (const double value : {sample.seconds, sample.relative_mse, std::sqrt(sample.relative_mse),
+                                 sample.error_90, sample.flip, sample.mean})
+        text << "," << exact(value);
+      text << "\n";
+    }
+  return text.str();
+}
+
+std::string study_json(const Study& study) {
+  Json settings = Json::array(), runs = Json::array(), reference = nullptr;
+  for (const auto& setting : study.settings)
+    settings.push_back({{"knob", setting.knob},
+                        {"value", setting.value},
+                        {"words", setting.words},
+                        {"path_traced", setting.path_traced}});
+  for (const auto& run : study.runs) runs.push_back(json_of(run));
+  if (study.reference)
+    reference = {{"how", study.reference->how},
+                 {"relative_mse", study.reference->relative_mse},
+                 {"error_90", study.reference->error_90},
+                 {"mean", study.reference->mean},
+                 {"seconds", study.reference->seconds}};
+  const Json json = {{"scene", study.scene},
+                     {"scene_hash", study.scene_hash},
+                     {"version", study.version},
+                     {"device", study.device},
+                     {"words", study.words},
+                     {"width", study.width},
+                     {"height", study.height},
+                     {"seed", study.seed},
+                     {"threads", study.threads},
+                     {"given_reference", study.given_reference},
+                     {"date", study.date},
+                     {"first_radius", study.first_radius},
+                     {"run_seconds", study.run_seconds},
+                     {"seeds", study.seeds},
+                     {"settings", settings},
+                     {"own_values", study.own_values},
+                     {"bases", study.bases},
+                     {"left_out", study.left_out},
+                     {"spent_seconds", study.spent_seconds},
+                     {"reference", reference},
+                     {"runs", runs}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Study study_from_json(const std::string& file, const std::string& text) {
+  try {
+    return study_of(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw UserError(file + ": not a study that this version wrote (" + error.what() +
+                    "); --restart begins it anew");
+  }
+}
+
+std::string difference_of(const Study& found, const Study& wanted) {
+  const auto differs = [](const std::string& what, const std::string& was, const std::string& is) {
+    return what + " (" + was + " then, " + is + " now)";
+  };
+  if (found.scene != wanted.scene) return differs("the scene", found.scene, wanted.scene);
+  if (found.scene_hash != wanted.scene_hash) return "what " + wanted.scene + " or its meshes and images hold";
+  if (found.version != wanted.version) return differs("the version", found.version, wanted.version);
+  if (found.device != wanted.device) return differs("the device", found.device, wanted.device);
+  if (found.words != wanted.words) return differs("the options", joined(found.words), joined(wanted.words));
+  if (found.seed != wanted.seed)
+    return differs("the seed", std::to_string(found.seed), std::to_string(wanted.seed));
+  if (found.threads != wanted.threads)
+    return differs("the threads", std::to_string(found.threads), std::to_string(wanted.threads));
+  if (found.given_reference != wanted.given_reference)
+    return differs("the reference", found.given_reference.empty() ? "its own" : found.given_reference,
+                   wanted.given_reference.empty() ? "its own" : wanted.given_reference);
+  return "";
+}
+
+void write_study(const std::string& folder, const Study& study) {
+  write_file((fs::path(folder) / "study.json").string(), study_json(study));
+  write_file((fs::path(folder) / "study.csv").string(), study_csv(study));
+}
+
+std::optional<Study> read_study(const std::string& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    std::error_code ignored;
+    if (name.starts_with(".causticl-") && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+  }
+  const std::string file = (fs::path(folder) / "study.json").string();
+  if (!fs::exists(file)) return {};
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw UserError(file + ": cannot be read");
+  return study_from_json(file, text);
+}
+
+std::string fingerprint(const std::string& bytes, const std::string& before) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const std::string* part : {&before, &bytes})
+    for (const char c : *part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace causticl
