@@ -34,8 +34,12 @@ TEST_CASE("--version prints name and number") {
 TEST_CASE("a command line that is not understood is one line of error and exit code 2") {
   const TemporaryFolder folder;
   const std::vector<std::pair<Words, std::string>> cases{
-      {{}, "no command given; expected render, devices, info, compare or selftest (see `causticl --help`)"},
-      {{"paint"}, "unknown command or option paint; expected render, devices, info, compare or selftest"},
+      {{},
+       "no command given; expected render, devices, info, explain, compare, study or selftest (see `causticl "
+       "--help`)"},
+      {{"paint"},
+       "unknown command or option paint; expected render, devices, info, explain, compare, study or "
+       "selftest"},
       {{"--fast"}, "unknown command or option --fast"},
       {{"render"}, "SCENE is required (see `causticl render --help`)"},
       {{"info"}, "SCENE is required (see `causticl info --help`)"},
