@@ -58,6 +58,7 @@ TEST_CASE("a scene with an effect compiles it, and the same scene without does n
       CHECK(!holds(without, pass, effect));
       ++passes;
     }
-    CHECK(passes > 0);
+    // What moves is placed anew by the host for each pass: no kernel knows of it.
+    CHECK((passes > 0) == (key != "motion"));
   }
 }
