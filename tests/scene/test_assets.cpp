@@ -24,17 +24,21 @@ json scene_json(const fs::path& file) {
 
 std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(scenes))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  for (const fs::path& folder : {scenes, scenes / "effects"})
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".json") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
+
+// As seen from scenes/: those in scenes/effects/ name their assets by "../assets/...".
+std::string asset_of(const std::string& path) { return path.rfind("../", 0) == 0 ? path.substr(3) : path; }
 
 // Calls use(path) for every "path" below `value` that names an asset.
 template <typename Use>
 void for_each_asset(const json& value, const Use& use) {
   if (value.is_object() && value.contains("path") && value["path"].is_string()) {
-    const std::string path = value["path"];
+    const std::string path = asset_of(value["path"]);
     if (path.rfind("assets/", 0) == 0) use(path);
   }
   if (value.is_structured())
@@ -53,7 +57,7 @@ std::set<std::string> glass_meshes() {
   for (const fs::path& file : scene_files()) {
     const json scene = scene_json(file);
     for (const json& object : scene["objects"])
-      if (object["type"] == "mesh" && is_glass(scene, object)) files.insert(object["path"]);
+      if (object["type"] == "mesh" && is_glass(scene, object)) files.insert(asset_of(object["path"]));
   }
   return files;
 }
