@@ -26,7 +26,7 @@ kernel void lobe(global const Input *in, global Output *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   Material material = {(float4)(1, 1, 1, in[i].ior), (float4)(0, 0, 0, 0), (float4)(0.2f, 1, 1, 0),
-                       (float4)(3.9f, 2, 2, 0), in[i].kind, 0, 0, in[i].alpha};
+                       (float4)(3.9f, 2, 2, 0), (float4)(0, 0, 0, 0), in[i].kind, 0, 0, in[i].alpha};
   Bsdf bsdf = {material.kind, (real3)(1, 1, 1), in[i].ior, 0, convert_real3(material.eta.xyz),
                convert_real3(material.k.xyz), 0, false};
   bsdf.alpha = lobe_alpha(material.alpha, bsdf.kind == MATERIAL_GLASS ? bsdf.ior : 0);
