@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "error_estimate.hpp"
+#include "luminance.hpp"
 
 namespace causticl {
 namespace {
@@ -14,15 +15,13 @@ const std::vector<float>* find(const Picture& picture, const std::string& name) 
   return found == picture.channels.end() ? nullptr : &found->values;
 }
 
-float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
-
 std::vector<PixelError> errors_of(const Picture& picture) {
   const auto* noise = find(picture, "error.noise");
   const auto* bias = find(picture, "error.bias");
   std::vector<PixelError> errors;
   if (!noise || !bias) return errors;
   for (std::size_t i = 0; i < noise->size(); ++i)
-    errors.push_back({luminance(&picture.rgb[3 * i]), (*noise)[i], (*bias)[i]});
+    errors.push_back({static_cast<float>(luminance(&picture.rgb[3 * i])), (*noise)[i], (*bias)[i]});
   return errors;
 }
 

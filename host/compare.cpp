@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flip.hpp"
+#include "luminance.hpp"
 
 namespace causticl {
 namespace {
@@ -26,8 +27,6 @@ double mse_of(const Picture& a, const Picture& b) {
   }
   return squares / static_cast<double>(a.rgb.size());
 }
-
-double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 /// The colour map magma of matplotlib, by a polynomial fit of sixth degree for each channel.
 double magma(int channel, double x) {

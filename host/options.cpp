@@ -4,7 +4,7 @@
 
 #include "error.hpp"
 #include "option_checks.hpp"
-#include "study_knobs.hpp"
+#include "option_groups.hpp"
 
 namespace causticl {
 namespace {
@@ -117,34 +117,6 @@ void add_report_options(CLI::App& app, Options& options) {
   app.add_option("--stats-json", options.stats_json, "write the same as one JSON object")->type_name("FILE");
 }
 
-/// Which checks run, on what.
-void add_selftest_options(CLI::App& app, Options& options) {
-  SelftestOptions& selftest = options.selftest;
-  const auto effort = [&](SelftestOptions::Effort value) {
-    return [&selftest, value] { selftest.effort = value; };
-  };
-  auto* quick = app.add_flag_callback(
-      "--quick", effort(SelftestOptions::Effort::quick),
-      "10^5 inputs a check at most: under half a minute once the\nkernels are compiled; default: 10^6");
-  app.add_flag_callback("--full", effort(SelftestOptions::Effort::full),
-                        "10^8 inputs a check: hours on a CPU")
-      ->excludes(quick);
-  app.add_option("--inputs", selftest.inputs, "inputs a check")
-      ->check(whole_number(1, 1000000000000))
-      ->type_name("N");
-  app.add_option("--case", selftest.checks,
-                 "only these checks: the number of a hard case, or part\n"
-                 "of a check's name; may be repeated")
-      ->type_name("SPEC")
-      ->allow_extra_args(false);
-  app.add_option("--replay", selftest.replay, "the one input of a check that failed, as it was printed")
-      ->type_name("WORDS");
-  app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
-  app.add_option("--seed", selftest.seed, "of the random inputs; 1 by default")
-      ->check(whole_number(0, 4294967295))
-      ->type_name("N");
-}
-
 /// What explaining a scene adds to reading it.
 void add_explain_options(CLI::App& app, Options& options) {
   app.add_flag("--measure", options.measure,
@@ -152,37 +124,6 @@ void add_explain_options(CLI::App& app, Options& options) {
                "what each costs on this device")
       ->disable_flag_override();
   app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
-}
-
-/// What a study measures, for how long and where it goes.
-void add_study_options(CLI::App& app, Options& options) {
-  StudyOptions& study = options.study;
-  app.add_option("-o,--output", study.folder,
-                 "folder for study.html, study.csv and study.json; default: the\n"
-                 "scene's name with -study in the working directory")
-      ->type_name("FOLDER");
-  app.add_option("--budget", study.budget, "time that all of it may take; 300 by default")
-      ->check(expect("a positive number of seconds", is_seconds))
-      ->type_name("SECONDS");
-  std::string names;
-  for (const Knob& knob : study_knobs()) names += (names.empty() ? "" : ", ") + std::string(knob.name);
-  app.add_option("--knobs", study.knobs, "only these, with commas between them:\n" + wrapped(names, 52))
-      ->delimiter(',')
-      ->type_name("LIST")
-      ->allow_extra_args(false);
-  app.add_option("--seeds", study.seeds, "renders of each setting, as far as there is time; default: 3")
-      ->check(whole_number(2, 16))
-      ->type_name("N");
-  app.add_option("--reference", study.reference,
-                 "picture to measure errors against, of the same size; default:\n"
-                 "the study renders its own, within the budget")
-      ->type_name("FILE");
-  app.add_flag("--restart", study.restart, "throw away the study that the folder holds")
-      ->disable_flag_override();
-  app.add_option("--seed", options.seed, "of the first render of each setting; 1 by default")
-      ->check(whole_number(0, 4000000000))
-      ->type_name("N");
-  app.add_flag("--quiet", options.quiet, "print nothing but errors and the summary")->disable_flag_override();
 }
 
 /// Two pictures and where their difference goes.

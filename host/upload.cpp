@@ -178,10 +178,12 @@ Camera device_camera(const CameraSpec& spec) {
   return camera;
 }
 
-cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene) {
-  set_arguments(kernel, scene.nodes, scene.blocks, scene.attributes, scene.shapes, scene.curves,
-                scene.materials, scene.textures, scene.texels, scene.emitters, scene.environment);
-  return 10;
+cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene, cl_uint index) {
+  for (const cl::Buffer* buffer :
+       {&scene.nodes, &scene.blocks, &scene.attributes, &scene.shapes, &scene.curves, &scene.materials,
+        &scene.textures, &scene.texels, &scene.emitters, &scene.environment})
+    kernel.setArg(index++, *buffer);
+  return index;
 }
 
 }  // namespace causticl

@@ -34,7 +34,7 @@ void place_scene(const Scene& scene, double time, Device& device, DeviceScene& o
 /// The thin lens of the scene's camera.
 Camera device_camera(const CameraSpec& camera);
 
-/// Sets a tracing kernel's leading arguments, and returns the index of the next.
-cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene);
+/// Sets a tracing kernel's arguments from `index` on, and returns the index of the next.
+cl_uint set_scene_arguments(cl::Kernel& kernel, const DeviceScene& scene, cl_uint index = 0);
 
 }  // namespace causticl

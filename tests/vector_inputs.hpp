@@ -19,6 +19,17 @@ inline std::vector<float4> uniform_tuples(RandomInputs& random, std::size_t coun
   return result;
 }
 
+/// What `kernel`, with the signature kernel(global const Input*, global Output*, uint count, further
+/// arguments...), makes of each input.
+template <typename Output, typename Input, typename... Arguments>
+std::vector<Output> outputs_of(cl::Program& program, const char* kernel, const std::vector<Input>& inputs,
+                               const Arguments&... arguments) {
+  const auto in = test_device().upload(inputs, "inputs");
+  const auto out = test_device().buffer(inputs.size() * sizeof(Output), "outputs");
+  run_kernel(program, kernel, inputs.size(), in, out, static_cast<cl_uint>(inputs.size()), arguments...);
+  return test_device().download<Output>(out, inputs.size());
+}
+
 /// A direction with uniform density over the sphere.
 inline Vec3 random_direction(RandomInputs& random) {
   const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * M_PI), r = std::sqrt(1 - z * z);

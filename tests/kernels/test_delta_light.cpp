@@ -30,6 +30,10 @@ kernel void leave(global const float4 *in, global float4 *out, uint count, globa
 }
 )";
 
+struct Arrival {
+  float4 weight, direction;  // direction.w: distance
+};
+
 constexpr std::size_t sample_count = 1 << 18;
 
 cl::Program& program() {
@@ -75,10 +79,7 @@ TEST_CASE("a spot falls off by the cubic step of the cosine") {
           outer == even && std::fabs(angle - outer) < 1e-6 ? NAN : expected_falloff(angle, outer, even));
     }
     auto emitter = test_device().upload(std::vector<Emitter>{spot(outer, even)}, "emitter");
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(in.size() * sizeof(float), "out");
-    run_kernel(program(), "falloff", in.size(), buffer, out, cl_uint(in.size()), emitter);
-    const auto got = test_device().download<float>(out, in.size());
+    const auto got = outputs_of<float>(program(), "falloff", in, emitter);
     std::size_t wrong = 0;
     // A direction is off by 1e-7, the border of the narrowest spot 0.005 wide.
     for (std::size_t i = 0; i < in.size(); ++i)
@@ -102,14 +103,11 @@ TEST_CASE("light arrives by the inverse square of the distance, and from afar as
     while (in.size() < 20000)
       in.push_back(to_float4(Vec3{1, 2, 3} + std::pow(10, random.uniform(-2, 3)) * random_direction(random)));
     auto emitter = test_device().upload(std::vector<Emitter>{light}, "emitter");
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(2 * in.size() * sizeof(float4), "out");
-    run_kernel(program(), "arrive", in.size(), buffer, out, cl_uint(in.size()), emitter);
-    const auto got = test_device().download<float4>(out, 2 * in.size());
+    const auto got = outputs_of<Arrival>(program(), "arrive", in, emitter);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < in.size(); ++i) {
-      const Vec3 arriving = to_vec3(got[2 * i]), direction = to_vec3(got[2 * i + 1]);
-      const double distance = got[2 * i + 1].w;
+      const Vec3 arriving = to_vec3(got[i].weight), direction = to_vec3(got[i].direction);
+      const double distance = got[i].direction.w;
       if (light.type == EMITTER_DIRECTIONAL) {
         wrong += !(arriving == Vec3{2, 4, 1} && length(direction + axis) < 1e-6 && std::isinf(distance));
         continue;
@@ -140,15 +138,12 @@ TEST_CASE("photons carry the falloff of their spot, one on average") {
     CAPTURE(outer, even);
     auto emitter = test_device().upload(std::vector<Emitter>{spot(outer, even)}, "emitter");
     const auto in = uniform_tuples(random, sample_count);
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(in.size() * sizeof(float4), "out");
-    run_kernel(program(), "leave", in.size(), buffer, out, cl_uint(in.size()), emitter);
     Histogram histogram(bins.count());
     histogram.probabilities.assign(bins.count(), 1.0 / static_cast<double>(bins.count()));
     const Frame frame(axis);
     double sum = 0, squares = 0;
     std::size_t wrong = 0;
-    for (const float4& ray : test_device().download<float4>(out, in.size())) {
+    for (const float4& ray : outputs_of<float4>(program(), "leave", in, emitter)) {
       const Vec3 local = frame.to_local(to_vec3(ray)), chord = to_vec3(ray) - axis;
       const double down = dot(chord, chord) / 2, angle = 2 * std::asin(std::sqrt(down / 2));
       histogram.add(bins.bin(down / drop(outer), turn(local.y, local.x), 1e-4));

@@ -43,6 +43,10 @@ kernel void start(global const float4 *in, global float4 *out, uint count, globa
 }
 )";
 
+struct Place {
+  float4 position, back;  // (u, v, sine, sine of the way back), and the direction that they stand for
+};
+
 constexpr std::size_t sample_count = 1 << 18;
 constexpr int histograms = 6;  // in this file, for Sidak's correction
 constexpr std::uint64_t numbers = 1ull << 40;
@@ -88,27 +92,24 @@ TEST_CASE("directions and positions of an environment's map are each other's inv
       in.push_back(to_float4(
           tilted_direction(random, {0, i % 2 ? 1.0 : -1.0, 0}, std::pow(10, random.uniform(-6, 0)))));
     while (in.size() < 20000) in.push_back(to_float4(random_direction(random)));
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(2 * in.size() * sizeof(float4), "out");
-    run_kernel(program(), "place", in.size(), buffer, out, cl_uint(in.size()), emitter);
-    const auto places = test_device().download<float4>(out, 2 * in.size());
+    const auto places = outputs_of<Place>(program(), "place", in, emitter);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < in.size(); ++i) {
-      const float4 place = places[2 * i];
+      const float4 place = places[i].position;
       const Vec3 d = to_vec3(in[i]);
       const double u = turn(d.x, -d.z) + 0.5 + turns, v = std::atan2(std::hypot(d.x, d.z), -d.y) / M_PI;
       const double sine = std::hypot(d.x, d.z), off = place.x - u - std::round(place.x - u);
       wrong += !(place.x >= 0 && place.x <= 1 && std::fabs(place.y - v) < 3e-7 &&
                  std::fabs(place.z - sine) < 2e-7);
       wrong += !(sine == 0 || std::fabs(off) < 1e-6);
-      wrong += !(length(to_vec3(places[2 * i + 1]) - d) < 3e-6 && std::fabs(place.w - sine) < 3e-6);
+      wrong += !(length(to_vec3(places[i].back) - d) < 3e-6 && std::fabs(place.w - sine) < 3e-6);
     }
     CHECK(wrong == 0);
     if (turns == 0) {
       // The middle of the map lies towards -z, a quarter to its right towards +x.
-      CHECK(places[2 * 3].x == Approx(0.5));
-      CHECK(places[2 * 2].x == Approx(0.75));
-      CHECK(places[0].y == Approx(1));
+      CHECK(places[3].position.x == Approx(0.5));
+      CHECK(places[2].position.x == Approx(0.75));
+      CHECK(places[0].position.y == Approx(1));
     }
   }
 }
@@ -123,10 +124,7 @@ TEST_CASE("an environment is interpolated around the seam and held beyond the la
     auto emitter = upload_emitter(width, height), texels = test_device().upload(table, "texels");
     std::vector<float2> in{{0, 0}, {1, 1}, {0, 1}, {0.5f, 0.5f}, {0.9999999f, 0}};
     while (in.size() < 20000) in.push_back({uniform24(random), uniform24(random)});
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(in.size() * sizeof(float4), "out");
-    run_kernel(program(), "look_up", in.size(), buffer, out, cl_uint(in.size()), emitter, texels);
-    const auto values = test_device().download<float4>(out, in.size());
+    const auto values = outputs_of<float4>(program(), "look_up", in, emitter, texels);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < in.size(); ++i) {
       // Brute force: the sum of all tents, on the cylinder, rows beyond the last held.
@@ -178,14 +176,11 @@ TEST_CASE("positions are drawn with the density that the lookup gives, and texel
 
     auto emitter = upload_emitter(width, height), texels = test_device().upload(table, "texels");
     const auto in = uniform_tuples(random, sample_count);
-    auto buffer = test_device().upload(in, "in");
-    auto out = test_device().buffer(in.size() * sizeof(float4), "out");
-    run_kernel(program(), "draw", in.size(), buffer, out, cl_uint(in.size()), emitter, texels,
-               cl_ulong(numbers));
     // Four bins a texel each way; the density is integrated by its values at a grid of points.
     const SquareBins bins{4u * static_cast<unsigned>(width), 4u * static_cast<unsigned>(height)};
     Histogram histogram(bins.count());
-    for (const float4& sample : test_device().download<float4>(out, in.size())) {
+    for (const float4& sample :
+         outputs_of<float4>(program(), "draw", in, emitter, texels, cl_ulong(numbers))) {
       if (sample.z > 0)
         histogram.add(bins.bin(sample.x, sample.y));
       else
@@ -198,10 +193,7 @@ TEST_CASE("positions are drawn with the density that the lookup gives, and texel
         grid.push_back(
             {static_cast<float>((static_cast<double>(x) + 0.5) / static_cast<double>(bins.nx * fine)),
              static_cast<float>((static_cast<double>(y) + 0.5) / static_cast<double>(bins.ny * fine))});
-    auto points = test_device().upload(grid, "grid");
-    auto values = test_device().buffer(grid.size() * sizeof(float4), "values");
-    run_kernel(program(), "look_up", grid.size(), points, values, cl_uint(grid.size()), emitter, texels);
-    const auto densities = test_device().download<float4>(values, grid.size());
+    const auto densities = outputs_of<float4>(program(), "look_up", grid, emitter, texels);
     for (std::size_t i = 0; i < grid.size(); ++i)
       histogram.probabilities[bins.bin(grid[i].x, grid[i].y)] +=
           densities[i].w / static_cast<double>(grid.size());
@@ -213,16 +205,13 @@ TEST_CASE("light from afar starts uniformly on the disc that touches the sphere 
   RandomInputs random(104);
   auto emitter = upload_emitter(1, 1);
   const auto in = uniform_tuples(random, sample_count);
-  auto buffer = test_device().upload(in, "in");
-  auto out = test_device().buffer(in.size() * sizeof(float4), "out");
   for (const Vec3 to : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{0.3, -2, 0.5})}) {
-    run_kernel(program(), "start", in.size(), buffer, out, cl_uint(in.size()), emitter, to_float4(to));
     const SquareBins bins{16, 16};
     Histogram histogram(bins.count());
     histogram.probabilities.assign(bins.count(), 1.0 / static_cast<double>(bins.count()));
     const Frame frame(to);
     std::size_t off = 0;
-    for (const float4& origin : test_device().download<float4>(out, in.size())) {
+    for (const float4& origin : outputs_of<float4>(program(), "start", in, emitter, to_float4(to))) {
       const Vec3 p = frame.to_local(to_vec3(origin) - Vec3{3, -2, 1});
       off += !(std::fabs(p.z + 5) < 1e-5);
       histogram.add(bins.bin((p.x * p.x + p.y * p.y) / 25, turn(p.y, p.x)));

@@ -340,10 +340,7 @@ TEST_CASE("flux is quantised without bias, and says where it does not fit") {
   std::vector<float2> in;
   for (const float flux : fluxes)
     for (std::size_t i = 0; i < each; ++i) in.push_back({flux, uniform24(random)});
-  auto buffer = test_device().upload(in, "in");
-  auto out = test_device().buffer(in.size() * sizeof(uint2), "out");
-  run_kernel(program(), "quantise", in.size(), buffer, out, cl_uint(in.size()));
-  const auto units = test_device().download<uint2>(out, in.size());
+  const auto units = outputs_of<uint2>(program(), "quantise", in);
   for (std::size_t f = 0; f < fluxes.size(); ++f) {
     CAPTURE(fluxes[f]);
     double sum = 0;

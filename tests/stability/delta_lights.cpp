@@ -1,9 +1,9 @@
 // Hard case 23: light without surface, as it arrives at a point and as photons carry it.
 #include "effects.h"
 #include "histogram_check.hpp"
+#include "lit_scene.hpp"
 #include "scene_parts.hpp"
 #include "stability_checks.hpp"
-#include "upload.hpp"
 #include "vectors.hpp"
 
 namespace causticl {
@@ -61,10 +61,7 @@ constexpr std::size_t light_count = 5, sky = light_count;
 
 /// A point, spots with a wide soft and a narrow hard border and one that is soft throughout, and a
 /// directional light, beside a sky of even radiance, all around a ball.
-struct Lights {
-  Scene scene;
-  DeviceScene uploaded;
-  Params params{};
+struct Lights : LitScene {
   double powers[light_count + 1], power = 0;  // over pi
 
   explicit Lights(Device& device) {
@@ -81,9 +78,7 @@ struct Lights {
     environment.map.height = 32;
     environment.map.rgba.assign(4 * 64 * 32, 0.25f);
     scene.environment = environment;
-    uploaded = upload_scene(scene, device, 1);
-    params.emitter_count = uploaded.emitter_count;
-    params.emitter_density = static_cast<float>(1 / uploaded.emitted_power);
+    upload(device);
     for (std::size_t i = 0; i < light_count; ++i) power += powers[i] = power_of(scene.lights[i]);
     // Rows of a map stand for their middles: its integral is that of the midpoint rule.
     double sines = 0;
@@ -142,10 +137,8 @@ cl::Program program(CheckContext& context) {
 /// compared.
 CheckResult arrivals(CheckContext& context) {
   const Lights lights(context.device);
-  const DeviceScene& s = lights.uploaded;
   CheckKernel kernel(context, program(context), "arrive");
-  kernel.with(lights.params, s.nodes, s.blocks, s.attributes, s.shapes, s.curves, s.materials, s.textures,
-              s.texels, s.emitters, s.environment);
+  kernel.with(lights);
   return run_random_check(
       context, 1e-5, "of the light's greatest",
       [&](InputRandom& random, std::uint64_t index) {
@@ -203,10 +196,7 @@ CheckResult photons(CheckContext& context) {
   Histogram& choice = histograms[light_count + 1];
   choice = Histogram(light_count + 1);
   for (std::size_t i = 0; i <= light_count; ++i) choice.probabilities[i] = lights.powers[i] / lights.power;
-  const DeviceScene& s = lights.uploaded;
-  SampleKernel<Emitted> draw(context, program(context), "emit", lights.params, s.nodes, s.blocks,
-                             s.attributes, s.shapes, s.curves, s.materials, s.textures, s.texels, s.emitters,
-                             s.environment);
+  SampleKernel<Emitted> draw(context, program(context), "emit", lights);
   const Vec3 centre{1, 2, 3};
   const double radius2 = Lights::square_radius();
   return run_histogram_check(

@@ -113,11 +113,11 @@ CheckResult white_furnace(CheckContext& context) {
   return result;
 }
 
-/// The mean of the closed sphere's picture, balls and all, by both integrators.
-CheckResult closed_sphere(CheckContext& context) {
+/// The mean of a scene's picture by path tracing and by SPPM, whose standard error is at most `deviation`
+/// over the root of the number of inputs; four of them are granted.
+CheckResult both_are_one(CheckContext& context, Scene scene, double deviation) {
   CheckResult result = deviation_result();
   const RenderBudget budget(context.inputs, 2, 32);
-  Scene scene = furnace(true);
   budget.apply(scene);
   scene.renderer.integrator = Integrator::pt;
   take(result, deviation_from_one(render_for(context, scene).picture, 0, budget.side), "path tracing");
@@ -125,20 +125,23 @@ CheckResult closed_sphere(CheckContext& context) {
   const Picture picture = render_for(context, scene).picture;
   const double mean =
       std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
-  // A quarter of the radiance comes by photons, a quarter by shadow rays. Each of N photons leaves one on
-  // average, with variance two, and the picture sees about a third of where they land: with the shadow rays'
-  // noise a standard deviation of 1 / sqrt(N) at most, and four are granted.
-  const double noise = 4 / std::sqrt(static_cast<double>(budget.inputs()));
+  const double noise = 4 * deviation / std::sqrt(static_cast<double>(budget.inputs()));
   take(result, std::max(0.0, std::fabs(mean - 1) - noise), "photon mapping");
   result.inputs = 2 * budget.inputs();
   return result;
 }
 
+/// The mean of the closed sphere's picture, balls and all, by both integrators.
+CheckResult closed_sphere(CheckContext& context) {
+  // A quarter of the radiance comes by photons, a quarter by shadow rays. Each of N photons leaves one on
+  // average, with variance two, and the picture sees about a third of where they land: with the shadow rays'
+  // noise a standard deviation of 1 / sqrt(N) at most.
+  return both_are_one(context, furnace(true), 1);
+}
+
 /// Balls that lose nothing under an environment of radiance 1, which all of the picture shows. Photons and
 /// shadow rays come from the environment alone.
 CheckResult environment_furnace(CheckContext& context) {
-  CheckResult result = deviation_result();
-  const RenderBudget budget(context.inputs, 2, 32);
   Scene scene;
   // Light is lost with the paths that are cut off, between white balls one in a few hundred a bounce.
   scene.max_depth = 64;
@@ -160,19 +163,9 @@ CheckResult environment_furnace(CheckContext& context) {
   environment.map.height = 32;
   environment.map.rgba.assign(std::size_t{4} * 64 * 32, 1.0f);
   scene.environment = environment;
-  budget.apply(scene);
-  scene.renderer.integrator = Integrator::pt;
-  take(result, deviation_from_one(render_for(context, scene).picture, 0, budget.side), "path tracing");
-  scene.renderer.integrator = Integrator::sppm;
-  const Picture picture = render_for(context, scene).picture;
-  const double mean =
-      std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
   // A seventh of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
   // its light.
-  const double noise = 2 / std::sqrt(static_cast<double>(budget.inputs()));
-  take(result, std::max(0.0, std::fabs(mean - 1) - noise), "photon mapping");
-  result.inputs = 2 * budget.inputs();
-  return result;
+  return both_are_one(context, std::move(scene), 0.5);
 }
 
 /// A coarse smooth torus of diffuse walls and, inside its tube, a smaller one of mirrors. The camera is in

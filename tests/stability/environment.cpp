@@ -1,9 +1,9 @@
 // Hard case 23: directions drawn from an environment, and the densities that are stated for them.
 #include "effects.h"
 #include "histogram_check.hpp"
+#include "lit_scene.hpp"
 #include "scene_parts.hpp"
 #include "stability_checks.hpp"
-#include "upload.hpp"
 #include "vectors.hpp"
 
 namespace causticl {
@@ -46,12 +46,9 @@ struct Drawn {
 
 /// A sky of 32 x 16 texels of three decades of brightness with a sun a thousand times as bright and a black
 /// quarter, beside a point light that has a third of the power.
-struct Sky {
+struct Sky : LitScene {
   static constexpr int width = 32, height = 16;
   static constexpr SquareBins bins{width, height};
-  Scene scene;
-  DeviceScene uploaded;
-  Params params{};
   std::vector<double> weights;  // of each texel: brightness times sine of its row's middle
   double total = 0;
 
@@ -77,9 +74,7 @@ struct Sky {
     DeltaLight point;
     point.intensity = {0, 0, 50};
     scene.lights.push_back(point);
-    uploaded = upload_scene(scene, device, 1);
-    params.emitter_count = uploaded.emitter_count;
-    params.emitter_density = static_cast<float>(1 / uploaded.emitted_power);
+    upload(device);
   }
 
   std::size_t texel(int column, int row) const {
@@ -128,10 +123,7 @@ CheckResult directions(CheckContext& context) {
   for (int row = 0; row < Sky::height; ++row)
     for (int column = 0; column < Sky::width; ++column)
       histogram.probabilities[static_cast<std::size_t>(row * Sky::width + column)] = sky.share(column, row);
-  const DeviceScene& s = sky.uploaded;
-  SampleKernel<Drawn> draw(context, program(context), "draw_at_random", sky.params, s.nodes, s.blocks,
-                           s.attributes, s.shapes, s.curves, s.materials, s.textures, s.texels, s.emitters,
-                           s.environment);
+  SampleKernel<Drawn> draw(context, program(context), "draw_at_random", sky);
   return run_histogram_check(context, {histogram}, draw,
                              [&](const Drawn& drawn, std::uint64_t, std::vector<Histogram>& to) {
                                if (drawn.direction.w == 0) return;
@@ -139,10 +131,6 @@ CheckResult directions(CheckContext& context) {
                                to[0].add(sky.bins.bin(u, v));
                              });
 }
-
-struct Numbers {
-  float u[4];
-};
 
 /// Radiance and both densities against interpolation in double. The density that integrates to the
 /// environment's share of all light is share * weight / total * texels / (2 pi^2 sine). A position is known
@@ -155,17 +143,10 @@ CheckResult densities(CheckContext& context) {
   // light.
   const double radius = 1.0001 * std::sqrt(3.0), distant = integral * radius * radius;
   const double share = distant / (distant + 4 * 50);
-  const DeviceScene& s = sky.uploaded;
   CheckKernel kernel(context, program(context), "draw");
-  kernel.with(sky.params, s.nodes, s.blocks, s.attributes, s.shapes, s.curves, s.materials, s.textures,
-              s.texels, s.emitters, s.environment);
+  kernel.with(sky);
   return run_random_check(
-      context, 5e-5, "of the largest texel around",
-      [](InputRandom& random, std::uint64_t) {
-        Numbers in;
-        for (float& u : in.u) u = random.uniform24();
-        return in;
-      },
+      context, 5e-5, "of the largest texel around", random_numbers,
       [&](const auto& inputs) { return kernel.run<Drawn>(inputs); },
       [&](const Numbers&, const Drawn& drawn) {
         if (drawn.direction.w == 0) return 0.0;

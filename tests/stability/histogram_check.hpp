@@ -67,8 +67,8 @@ class SampleKernel {
   SampleKernel(CheckContext& context, const cl::Program& program, const char* name,
                const Arguments&... arguments)
       : device_(context.device), kernel_(program, name), seed_(context.seed) {
-    cl_uint index = 4;
-    (kernel_.setArg(index++, arguments), ...);
+    [[maybe_unused]] cl_uint index = 4;
+    ((index = set_argument(kernel_, index, arguments)), ...);
   }
 
   std::vector<Sample> operator()(std::uint64_t first, std::size_t count) {

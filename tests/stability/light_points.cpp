@@ -1,8 +1,8 @@
 // Hard case 23: points on lights, and the densities that are stated for them.
 #include "effects.h"
 #include "histogram_check.hpp"
+#include "lit_scene.hpp"
 #include "stability_checks.hpp"
-#include "upload.hpp"
 #include "vectors.hpp"
 
 namespace causticl {
@@ -58,10 +58,7 @@ struct Drawn {
 enum Light { rectangle, disk, sphere, curve, light_count };
 constexpr Light light_of[] = {rectangle, rectangle, disk, sphere, curve};
 
-struct Lights {
-  Scene scene;
-  DeviceScene uploaded;
-  Params params{};
+struct Lights : LitScene {
   std::vector<double> step_ends;  // of the curve: the share of its area up to the end of each step in t
 
   explicit Lights(Device& device) {
@@ -71,9 +68,7 @@ struct Lights {
     add(Shape::disk, tilt.followed_by(Transform::shift({0, 3, 0})), 0.8);
     add(Shape::sphere, Transform::shift({5, -1, 0}), 1.2);
     add(Shape::bezier, tilt.followed_by(Transform::shift({0, 0, -5})), 1);
-    uploaded = upload_scene(scene, device, 1);
-    params.emitter_count = uploaded.emitter_count;
-    params.emitter_density = static_cast<float>(1 / uploaded.emitted_power);
+    upload(device);
     double sum = 0;
     for (std::size_t step = 0; step < EMITTER_AREA_STEPS; ++step) {
       constexpr int midpoints = 64;
@@ -165,10 +160,7 @@ CheckResult points(CheckContext& context) {
   const Frame frame(normalize(center));
   const double sine = lights.scene.objects[sphere].radius / length(center),
                one_minus_cos = 1 - std::sqrt(1 - sine * sine);
-  const DeviceScene& s = lights.uploaded;
-  SampleKernel<Drawn> draw(context, program(context), "draw_at_random", lights.params, s.nodes, s.blocks,
-                           s.attributes, s.shapes, s.curves, s.materials, s.textures, s.texels, s.emitters,
-                           s.environment);
+  SampleKernel<Drawn> draw(context, program(context), "draw_at_random", lights);
   return run_histogram_check(context, std::move(histograms), draw,
                              [&](const Drawn& drawn, std::uint64_t, std::vector<Histogram>& to) {
                                const Light light = light_of[drawn.emitter];
@@ -188,10 +180,6 @@ CheckResult points(CheckContext& context) {
                              });
 }
 
-struct Numbers {
-  float u[4];
-};
-
 /// Both densities, that of the sample and that of a ray which meets the light there, against the one that
 /// integrates to 1: the light's share of power over its area or cone, times distance^2 / cosine. A point is
 /// known to 1e-6 of its distance of 5; on a curve it moves by that over the cosine, the normal turns by as
@@ -201,17 +189,10 @@ CheckResult densities(CheckContext& context) {
   const Lights lights(context.device);
   double shares[light_count];
   for (int light = 0; light < light_count; ++light) shares[light] = lights.share(static_cast<Light>(light));
-  const DeviceScene& s = lights.uploaded;
   CheckKernel kernel(context, program(context), "draw");
-  kernel.with(lights.params, s.nodes, s.blocks, s.attributes, s.shapes, s.curves, s.materials, s.textures,
-              s.texels, s.emitters, s.environment);
+  kernel.with(lights);
   return run_random_check(
-      context, 2e-4, "relative",
-      [](InputRandom& random, std::uint64_t) {
-        Numbers in;
-        for (float& u : in.u) u = random.uniform24();
-        return in;
-      },
+      context, 2e-4, "relative", random_numbers,
       [&](const auto& inputs) { return kernel.run<Drawn>(inputs); },
       [&](const Numbers&, const Drawn& drawn) {
         const Light light = light_of[drawn.emitter];

@@ -18,6 +18,13 @@ namespace causticl {
 /// How many inputs a kernel gets at a time, at most.
 constexpr std::size_t check_batch = std::size_t{1} << 18;
 
+/// Sets the argument number `index`, and returns the index of the next.
+template <typename Argument>
+cl_uint set_argument(cl::Kernel& kernel, cl_uint index, const Argument& argument) {
+  kernel.setArg(index, argument);
+  return index + 1;
+}
+
 /// A kernel with the signature kernel(global const Input*, global Output*, uint count, further arguments...).
 class CheckKernel {
  public:
@@ -27,8 +34,8 @@ class CheckKernel {
   /// Sets the arguments after the first three: buffers and scalars.
   template <typename... Arguments>
   CheckKernel& with(const Arguments&... arguments) {
-    cl_uint index = 3;
-    (kernel_.setArg(index++, arguments), ...);
+    [[maybe_unused]] cl_uint index = 3;
+    ((index = set_argument(kernel_, index, arguments)), ...);
     return *this;
   }
 
