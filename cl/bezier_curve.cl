@@ -6,8 +6,8 @@
 //   8 for each group of eight spans: y_low[8], y_high[8], x_low^2[8], x_high^2[8], padded
 //   then for each span: (x, y) coefficients of w^0 ... w^5, w in [-1, 1]; unit tangents at w = -1 and 1; the
 //   curve parameters at w = -1 and 1; for w = -1 and 1 whether the surface goes on smoothly there; padding to 24
-#include "prelude.cl"
 #include "types.h"
+#include "warp.cl"
 
 #define CURVE_HEADER 8u
 #define CURVE_GROUP 32u
@@ -55,7 +55,8 @@ INLINE void bezier_point(global const Shape *shape, global const float *curves, 
   real per_v = 2 / ((real)span[17] - (real)span[16]), scale = curve[1];
   real w = clamp((v - span[16]) * per_v - 1, (real)-1, (real)1);
   real4 profile = bezier_evaluate(span, w);
-  real c, s = sincos(2 * PI * u, &c);
+  real2 around = cos_sin_turn(u);
+  real c = around.x, s = around.y;
 
   real3 p = (real3)(profile.x * scale * c, profile.y * scale + curve[2], profile.x * scale * s);
   *position = transform_point(shape->to_world, p);

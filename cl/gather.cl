@@ -11,23 +11,54 @@ typedef struct {
   uint count;
 } Gathered;
 
-INLINE ulong sum_of_lanes(uint8 v) {
-  return (ulong)v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
+// The same by lanes of eight photons, which the ranges of a search share.
+typedef struct {
+  uint8 red, green, blue, near_red, near_green, near_blue;
+  int8 count;  // negative: a comparison's true is -1
+  uint steps;  // of eight photons since the lanes were empty
+} GatherLanes;
+
+// As many steps of 16-bit flux as the 32-bit lanes hold.
+#define GATHER_STEPS 65536u
+
+INLINE GatherLanes gather_lanes_empty(void) {
+  GatherLanes lanes = {(uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (int8)(0), 0};
+  return lanes;
 }
 
-// Adds the photons sorted[begin, end) within sqrt(radius2) of `point` that landed on the same side.
+INLINE ulong sum_of_lanes(uint8 v) {
+  ulong4 a = convert_ulong4(v.lo) + convert_ulong4(v.hi);
+  ulong2 b = a.lo + a.hi;
+  return b.x + b.y;
+}
+
+// Adds the lanes to the sums.
+INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
+  sum->red += sum_of_lanes(lanes.red);
+  sum->green += sum_of_lanes(lanes.green);
+  sum->blue += sum_of_lanes(lanes.blue);
+  sum->near_red += sum_of_lanes(lanes.near_red);
+  sum->near_green += sum_of_lanes(lanes.near_green);
+  sum->near_blue += sum_of_lanes(lanes.near_blue);
+  sum->count += (uint)sum_of_lanes(as_uint8(-lanes.count));
+}
+
+// Adds the photons sorted[begin, end) within sqrt(radius2) of `point` that landed on the same side to the lanes, and
+// those to `sum` where they are full.
 INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uint end, real3 point, float3 normal,
-                         real radius2, Gathered *sum) {
+                         real radius2, GatherLanes *lanes, Gathered *sum) {
   global const real *xs = (global const real *)sorted;
   global const uint *words = photon_words(sorted, stride);
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   float3 n = normal * (1.0f / 127.0f);
   real near_radius2 = radius2 / 4;
   while (begin < end) {
-    // 2^16 steps of 16-bit flux are what the 32-bit lanes hold.
-    uint stop = end - begin > (1u << 19) ? begin + (1u << 19) : end;
-    uint8 red = 0, green = 0, blue = 0, near_red = 0, near_green = 0, near_blue = 0;
-    int8 count = 0;
+    if (lanes->steps == GATHER_STEPS) {
+      gather_lanes_add(*lanes, sum);
+      *lanes = gather_lanes_empty();
+    }
+    uint steps = min((end - begin + 7) / 8, GATHER_STEPS - lanes->steps), stop = min(end, begin + 8 * steps);
+    lanes->steps += steps;
     for (uint i = begin; i < stop; i += 8) {
       real8 dx = vload8(0, xs + i) - point.x;
       real8 dy = vload8(0, xs + stride + i) - point.y;
@@ -42,21 +73,14 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, words + stride + i) & keep, b = vload8(0, words + 2 * stride + i) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
-      red += r;
-      green += g;
-      blue += b;
-      near_red += r & near;
-      near_green += g & near;
-      near_blue += b & near;
-      count -= inside;
+      lanes->red += r;
+      lanes->green += g;
+      lanes->blue += b;
+      lanes->near_red += r & near;
+      lanes->near_green += g & near;
+      lanes->near_blue += b & near;
+      lanes->count += inside;
     }
-    sum->red += sum_of_lanes(red);
-    sum->green += sum_of_lanes(green);
-    sum->blue += sum_of_lanes(blue);
-    sum->near_red += sum_of_lanes(near_red);
-    sum->near_green += sum_of_lanes(near_green);
-    sum->near_blue += sum_of_lanes(near_blue);
-    sum->count += (uint)sum_of_lanes(as_uint8(count));
     begin = stop;
   }
 }
@@ -114,6 +138,7 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
 OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const uint *sorted, real3 point,
                                 float3 normal, real radius2, bool in_medium, real3 direction, real g) {
   Gathered sum = {0, 0, 0, 0, 0, 0, 0};
+  GatherLanes lanes = gather_lanes_empty();
   real radius = sqrt(radius2);
   uint stride = photon_stride(grid.photon_count);
   uint i0, j0, k0;
@@ -132,10 +157,11 @@ OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global con
         if (HAS(EFFECT_MEDIUM) && in_medium)
           gather_range_medium(sorted, stride, begin, end, point, direction, g, radius2, &sum);
         else
-          gather_range(sorted, stride, begin, end, point, normal, radius2, &sum);
+          gather_range(sorted, stride, begin, end, point, normal, radius2, &lanes, &sum);
       }
     }
   }
+  gather_lanes_add(lanes, &sum);
   return sum;
 }
 

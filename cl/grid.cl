@@ -5,14 +5,12 @@
 // The cube that holds coordinate x along one axis. Both the sort and the gather call this, and it must round
 // alike in both: hence no contraction, and one function.
 INLINE int grid_coordinate(real x, float origin, float inverse_cell) {
-  return convert_int_sat_rtn((x - origin) * inverse_cell);
+  // Beyond what fits an int all is one cube. 128 is the distance between floats there.
+  return (int)floor(clamp((x - origin) * inverse_cell, (real)-2147483648.0f, (real)(2147483648.0f - 128)));
 }
 
-// x modulo n in [0, n) for any int x.
-INLINE uint grid_wrap(int x, uint n) {
-  int r = x % (int)n;
-  return (uint)(r < 0 ? r + (int)n : r);
-}
+// x modulo n in [0, n) for any int x and n a power of two.
+INLINE uint grid_wrap(int x, uint n) { return (uint)x & (n - 1); }
 
 INLINE uint grid_bucket(Grid grid, real3 p) {
   uint i = grid_wrap(grid_coordinate(p.x, grid.origin.x, grid.origin.w), grid.nx);

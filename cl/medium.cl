@@ -47,8 +47,8 @@ INLINE real3 phase_sample(real g, real3 direction, real2 u) {
   // 1 - cosine by inverting the distribution, in a form that neither cancels nor divides by g.
   real s = fabs(g), d = 1 - s + 2 * s * u.x;
   real drop = 2 * (1 - s) * (1 - s) * (1 - u.x) * (1 + s * u.x) / (d * d);
-  real sine = sqrt(fmax(drop * (2 - drop), (real)0)), angle = 2 * PI * u.y;
+  real2 around = sqrt(fmax(drop * (2 - drop), (real)0)) * cos_sin_turn(u.y);
   real3 axis = g < 0 ? -direction : direction, tangent, bitangent;
   orthonormal_basis(axis, &tangent, &bitangent);
-  return normalize(sine * cos(angle) * tangent + sine * sin(angle) * bitangent + (1 - drop) * axis);
+  return normalize(around.x * tangent + around.y * bitangent + (1 - drop) * axis);
 }

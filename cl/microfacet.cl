@@ -1,6 +1,6 @@
 // Microfacets: GGX with the height-correlated Smith shadowing, sampled by visible normals. All directions are in
 // the local frame, z the normal on the side that the path arrives from; v goes back to where it came from.
-#include "prelude.cl"
+#include "warp.cl"
 
 // A lobe that is narrower than this, in radians, is treated as perfectly specular: a pixel is wider, while half
 // vectors of float directions no longer resolve it.
@@ -39,8 +39,8 @@ INLINE real3 ggx_visible_normal(real3 v, real alpha, real2 u) {
   real3 s = normalize((real3)(alpha * v.x, alpha * v.y, v.z));
   // The cap's height below the pole, rather than its z, keeps narrow caps exact.
   real drop = u.y * (1 + s.z);
-  real r = sqrt(max((real)0, drop * (2 - drop))), angle = 2 * PI * u.x;
-  real3 h = (real3)(s.x + r * cos(angle), s.y + r * sin(angle), (1 - u.y) * (1 + s.z));
+  real r = sqrt(max((real)0, drop * (2 - drop)));
+  real3 h = (real3)(s.xy + r * cos_sin_turn(u.x), (1 - u.y) * (1 + s.z));
   return normalize((real3)(alpha * h.x, alpha * h.y, h.z));
 }
 

@@ -3,13 +3,14 @@
 #include "camera.cl"
 #include "direct.cl"
 #include "grid.cl"
+#include "work_group.cl"
 
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
-// meets, in either case.
-OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
+// meets, in either case. Returns the number of rays traced.
+OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
                          volatile global Counters *counters) {
   uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
   RandomStream stream = {params->seed, params->pass, pixel * params->visible_points + sample};
@@ -99,13 +100,16 @@ OUTLINE void camera_path(const Scene *scene, const Params *params, uint index, g
   }
   vstore3(radiance, 0, point.radiance);
   visible_points[index] = point;
-  atomic_add(&counters->rays, rays);
+  return rays;
 }
 
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params) {
-  uint index = get_global_id(0);
-  if (index >= params.pixel_count * params.visible_points) return;
-  SCENE_INIT(params);
-  camera_path(&scene, &params, index, visible_points, counters);
+  local uint group_rays[LARGEST_WORK_GROUP];
+  uint index = get_global_id(0), rays = 0;
+  if (index < params.pixel_count * params.visible_points) {
+    SCENE_INIT(params);
+    rays = camera_path(&scene, &params, index, visible_points, counters);
+  }
+  group_add(rays, group_rays, &counters->rays);
 }

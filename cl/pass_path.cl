@@ -2,6 +2,7 @@
 #include "camera.cl"
 #include "direct.cl"
 #include "film.cl"
+#include "work_group.cl"
 
 // Radiance along one camera path. Paths scatter at most params.max_depth times.
 OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays,
@@ -81,20 +82,28 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
   return radiance;
 }
 
-// Adds sample number params.pass, one a pixel of the chunk, to the film. Four consecutive samples stratify a
-// pixel 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts nothing.
-kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params) {
-  uint i = get_global_id(0);
-  if (i >= params.pixel_count) return;
-  SCENE_INIT(params);
-  uint pixel = params.first_pixel + i;
-  RandomStream stream = {params.seed, params.pass, pixel};
+// Adds sample number params.pass of a pixel to the film; *rays is the number of rays traced. Four consecutive samples
+// stratify a pixel 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts
+// nothing.
+INLINE void sample_pixel(const Scene *scene, const Params *params, uint pixel, global FilmPixel *film, uint *rays,
+                         volatile global Counters *counters) {
+  RandomStream stream = {params->seed, params->pass, pixel};
   real4 numbers = random4(stream, DIM_FILM);
+  uint stratum = (params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u;
   real2 position =
-      (real2)(pixel % params.width, pixel / params.width) + camera_stratum((params.pass + (pixel * 0x9e3779b9u >> 30)) % 4u, 4u, numbers.xy);
-  Ray ray = camera_ray(&params.camera, params.width, params.height, position, numbers.zw);
-  uint rays = 0;
-  real3 radiance = path_radiance(&scene, ray, stream, params.max_depth, &rays, counters);
-  film_add(film + pixel, radiance, 0, params.pass, counters);
-  atomic_add(&counters->rays, rays);
+      (real2)(pixel % params->width, pixel / params->width) + camera_stratum(stratum, 4u, numbers.xy);
+  Ray ray = camera_ray(&params->camera, params->width, params->height, position, numbers.zw);
+  real3 radiance = path_radiance(scene, ray, stream, params->max_depth, rays, counters);
+  film_add(film + pixel, radiance, 0, params->pass, counters);
+}
+
+// One sample of each pixel of the chunk.
+kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params) {
+  local uint group_rays[LARGEST_WORK_GROUP];
+  uint i = get_global_id(0), rays = 0;
+  if (i < params.pixel_count) {
+    SCENE_INIT(params);
+    sample_pixel(&scene, &params, params.first_pixel + i, film, &rays, counters);
+  }
+  group_add(rays, group_rays, &counters->rays);
 }

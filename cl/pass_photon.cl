@@ -2,6 +2,7 @@
 // medium scatters them.
 #include "direct.cl"
 #include "grid.cl"
+#include "work_group.cl"
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
@@ -13,34 +14,45 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   return (uint)clamp(units, (real)0, (real)65535);
 }
 
-// More photons than any buffer holds need not be told apart, and a count that wrapped around would pass for few.
-#define PHOTON_COUNT_LIMIT 0x80000000u
+// Photons that a work-group keeps until it asks for room for all of them at once: four of each of its usual 64 items.
+// What finds no place here goes to the buffer by itself.
+#define STAGED_PHOTONS (LARGEST_WORK_GROUP)
 
-// Appends a photon, whose `flux` is relative to Params.photon_flux; where the buffer is full it is only counted.
-INLINE void photon_store(global Photon *photons, uint capacity, real3 position, uint normal, real3 flux, real4 dither,
-                         volatile global Counters *counters) {
+// Where one work-item leaves its photons.
+typedef struct {
+  local Photon *staged;   // of this item alone
+  uint room;              // in `staged`
+  uint count;             // how many are there
+  global Photon *photons; // the buffer of the pass, and what it holds
+  uint capacity;
+  volatile global Counters *counters;
+} PhotonStore;
+
+// Adds a photon, whose `flux` is relative to Params.photon_flux; where the buffer is full it is only counted.
+INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 flux, real4 dither) {
   bool saturated = false;
   uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
        b = flux_quantise(flux.z, dither.z, &saturated);
-  if (saturated) atomic_inc(&counters->saturated);
+  if (saturated) atomic_inc(&store->counters->saturated);
   if (!isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z)) {
-    atomic_inc(&counters->non_finite);
+    atomic_inc(&store->counters->non_finite);
     return;
   }
-  uint slot = atomic_inc(&counters->photons);
-  if (slot >= PHOTON_COUNT_LIMIT) atomic_dec(&counters->photons);
-  if (slot >= capacity) return;
-  global Photon *photon = photons + slot;
-  vstore3(position, 0, photon->position);
-  photon->normal = normal;
-  photon->flux_rg = r | g << 16;
-  photon->flux_b = b;
+  Photon photon;
+  vstore3(position, 0, photon.position);
+  photon.normal = normal;
+  photon.flux_rg = r | g << 16;
+  photon.flux_b = b;
+  if (store->count < store->room) {
+    store->staged[store->count++] = photon;
+    return;
+  }
+  uint slot = list_reserve(1, &store->counters->photons);
+  if (slot < store->capacity) store->photons[slot] = photon;
 }
 
-// Traces photon number `index` of the pass. Photons are appended in any order; those that find the buffer full are
-// counted, so that the host can enlarge it and trace the pass again.
-OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, global Photon *photons,
-                         volatile global Counters *counters) {
+// Traces photon number `index` of the pass. Returns the number of rays traced.
+OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, PhotonStore *store) {
   RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, index};
 
   real3 flux;
@@ -53,15 +65,14 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
     if (!(max_component(flux) > 0)) break;
     ++rays;
     bool met = geometry_closest(&scene->geometry, ray, &hit);
-    count_faults(hit.faults, counters);
+    count_faults(hit.faults, store->counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real before = max_component(flux), distance;
       if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &flux, &distance)) {
         flux *= scene->medium.scattering;
         real3 position = ray.origin + distance * ray.direction;
         if (!(shadow_rays && depth == 0))
-          photon_store(photons, params->photon_capacity, position, direction_pack(ray.direction), flux,
-                       random_at(stream, depth, DIM_QUANTISE), counters);
+          photon_store(store, position, direction_pack(ray.direction), flux, random_at(stream, depth, DIM_QUANTISE));
         if (depth + 1 == params->max_depth) break;
         real4 random = random_at(stream, depth, DIM_BSDF);
         real survival = fmin(max_component(flux) / before, (real)1);
@@ -77,7 +88,7 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
+    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, store->counters);
     if (HAS(EFFECT_DISPERSION))
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &flux);
     real3 n = facing_normal(&surface, ray.direction);
@@ -100,9 +111,9 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
         real3 landed = flux * shading_normal_arrival(&surface, ray.direction);
         if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
         bool front = dot(surface.geometric_normal, ray.direction) < 0;
-        photon_store(photons, params->photon_capacity, surface.position,
+        photon_store(store, surface.position,
                      normal_pack(front ? surface.geometric_normal : -surface.geometric_normal), landed,
-                     random_at(stream, depth, DIM_QUANTISE), counters);
+                     random_at(stream, depth, DIM_QUANTISE));
       }
     }
     if (depth + 1 == params->max_depth) break;
@@ -122,13 +133,23 @@ OUTLINE void photon_path(const Scene *scene, const Params *params, uint index, g
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }
-  atomic_add(&counters->rays, rays);
+  return rays;
 }
 
+// Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
+// the host can enlarge it and trace the pass again.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params) {
-  uint index = get_global_id(0);
-  if (index >= params.photon_count) return;
-  SCENE_INIT(params);
-  photon_path(&scene, &params, index, photons, counters);
+  local Photon staged[STAGED_PHOTONS];
+  local uint group_rays[LARGEST_WORK_GROUP], places[LARGEST_WORK_GROUP + 1];
+  uint index = get_global_id(0), room = STAGED_PHOTONS / get_local_size(0), rays = 0;
+  PhotonStore store = {staged + get_local_id(0) * room, room, 0, photons, params.photon_capacity, counters};
+  if (index < params.photon_count) {
+    SCENE_INIT(params);
+    rays = photon_path(&scene, &params, index, &store);
+  }
+  uint first = group_reserve(store.count, places, &counters->photons);
+  for (uint i = 0; i < store.count; ++i)
+    if (first + i < params.photon_capacity) photons[first + i] = store.staged[i];
+  group_add(rays, group_rays, &counters->rays);
 }

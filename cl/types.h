@@ -282,14 +282,17 @@ CHECK_SIZE(Photon, 24);
 #endif
 
 // The grid of photons: space is cut into cubes of `cell` units; cube (i, j, k) owns bucket
-// (i mod nx, j mod ny, k mod nz). A box of at most n cubes along each axis meets each bucket once, so nothing
-// is ever gathered twice, whatever the table's size.
+// (i mod nx, j mod ny, k mod nz), where nx, ny and nz are powers of two. A box of at most n cubes along each axis
+// meets each bucket once, so nothing is ever gathered twice, whatever the table's size.
 typedef struct {
   float4 origin;       // of the cube (0, 0, 0); w: 1 / cell
   uint nx, ny, nz;
   uint photon_count;   // stored photons
 } Grid;
 CHECK_SIZE(Grid, 32);
+
+// Items of a work-group, at most: kernels keep a number for each in local memory.
+#define LARGEST_WORK_GROUP 256u
 
 // Counts that kernels add to; each wraps at 2^32 and is read as differences.
 typedef struct {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include "error.hpp"
+#include "types.h"
 
 namespace causticl {
 namespace {
@@ -153,6 +155,12 @@ void Device::launch(cl::Kernel& kernel, std::size_t items) {
   pending_.emplace_back(kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), event);
   // Events hold driver memory: drop those that are done before many gather.
   if (pending_.size() >= 4096) collect_events();
+}
+
+void Device::set_local_size(std::size_t size) {
+  if (size < 1 || size > LARGEST_WORK_GROUP)
+    throw std::logic_error("a work-group has 1 to " + std::to_string(LARGEST_WORK_GROUP) + " items");
+  local_size_ = size;
 }
 
 std::size_t Device::launch_size(std::size_t items) const {

@@ -93,7 +93,8 @@ class Device {
 
   /// Work-items of a group, one size for all kernels: PoCL compiles a kernel anew for each size.
   std::size_t local_size() const { return local_size_; }
-  void set_local_size(std::size_t size) { local_size_ = size; }
+  /// At most LARGEST_WORK_GROUP.
+  void set_local_size(std::size_t size);
 
  private:
   DeviceInfo info_;

