@@ -43,35 +43,36 @@ INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
   sum->count += (uint)sum_of_lanes(as_uint8(-lanes.count));
 }
 
-// Adds the photons sorted[begin, end) within sqrt(radius2) of `point` that landed on the same side to the lanes, and
-// those to `sum` where they are full.
-INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uint end, real3 point, float3 normal,
+// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the
+// lanes, and these to `sum` where they are full.
+INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, float3 normal,
                          real radius2, GatherLanes *lanes, Gathered *sum) {
-  global const real *xs = (global const real *)sorted;
-  global const uint *words = photon_words(sorted, stride);
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   float3 n = normal * (1.0f / 127.0f);
   real near_radius2 = radius2 / 4;
-  while (begin < end) {
+  uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
+  while (block < blocks_end) {
     if (lanes->steps == GATHER_STEPS) {
       gather_lanes_add(*lanes, sum);
       *lanes = gather_lanes_empty();
     }
-    uint steps = min((end - begin + 7) / 8, GATHER_STEPS - lanes->steps), stop = min(end, begin + 8 * steps);
+    uint steps = min(blocks_end - block, GATHER_STEPS - lanes->steps), stop = block + steps;
     lanes->steps += steps;
-    for (uint i = begin; i < stop; i += 8) {
-      real8 dx = vload8(0, xs + i) - point.x;
-      real8 dy = vload8(0, xs + stride + i) - point.y;
-      real8 dz = vload8(0, xs + 2 * stride + i) - point.z;
-      int8 packed = as_int8(vload8(0, words + i));
+    for (; block < stop; ++block) {
+      global const PhotonBlock *photons = sorted + block;
+      real8 dx = vload8(0, photons->position[0]) - point.x;
+      real8 dy = vload8(0, photons->position[1]) - point.y;
+      real8 dz = vload8(0, photons->position[2]) - point.z;
+      int8 packed = as_int8(vload8(0, photons->normal));
       float8 facing = n.x * convert_float8(packed << 24 >> 24) + n.y * convert_float8(packed << 16 >> 24) +
                       n.z * convert_float8(packed << 8 >> 24);
       real8 distance2 = dx * dx + dy * dy + dz * dz;
-      int8 inside =
-          mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE) & (lane < (uint8)(stop - i));
+      uint8 index = block * 8 + lane;
+      int8 inside = mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE);
+      inside &= (index >= begin) & (index < end);
       if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
-      uint8 red_green = vload8(0, words + stride + i) & keep, b = vload8(0, words + 2 * stride + i) & keep;
+      uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
       lanes->red += r;
       lanes->green += g;
@@ -81,30 +82,28 @@ INLINE void gather_range(global const uint *sorted, uint stride, uint begin, uin
       lanes->near_blue += b & near;
       lanes->count += inside;
     }
-    begin = stop;
   }
 }
 
 // The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
 #define PHASE_UNIT 16777216.0f
 
-// Adds the photons sorted[begin, end) within sqrt(radius2) of `point` in the medium, each times the phase function for
-// light that is turned to `direction`, in units of phase_density(g, +-1) / PHASE_UNIT. Those within half the radius
-// are also summed alone.
-INLINE void gather_range_medium(global const uint *sorted, uint stride, uint begin, uint end, real3 point,
+// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` in the medium, each times the phase
+// function for light that is turned to `direction`, in units of phase_density(g, +-1) / PHASE_UNIT. Those within half
+// the radius are also summed alone.
+INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, uint end, real3 point,
                                 real3 direction, real g, real radius2, Gathered *sum) {
-  global const real *xs = (global const real *)sorted;
-  global const uint *words = photon_words(sorted, stride);
   real peak = phase_density(g, g < 0 ? -1 : 1);
   for (uint i = begin; i < end; ++i) {
-    real3 d = (real3)(xs[i], xs[stride + i], xs[2 * stride + i]) - point;
-    uint packed = words[i];
+    global const PhotonBlock *photons = sorted + i / 8;
+    uint lane = i % 8, packed = photons->normal[lane];
+    real3 d = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]) - point;
     if (!(dot(d, d) <= radius2) || !(packed & IN_MEDIUM)) continue;
     real share = phase_density(g, dot(direction_unpack(packed), direction)) / peak;
     ulong parts = (ulong)(fmin(share, (real)1) * PHASE_UNIT + (real)0.5);
-    uint red_green = words[stride + i];
+    uint red_green = photons->flux_rg[lane];
     ulong red = parts * (red_green & 0xffffu), green = parts * (red_green >> 16);
-    ulong blue = parts * words[2 * stride + i];
+    ulong blue = parts * photons->flux_b[lane];
     sum->red += red;
     sum->green += green;
     sum->blue += blue;
@@ -135,12 +134,11 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
 
 // Calls gather_range, or gather_range_medium where `in_medium`, for every bucket that may hold a photon within
 // sqrt(radius2) of `point`, once: a window of at most n cubes along an axis of n buckets has no two in one bucket.
-OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const uint *sorted, real3 point,
+OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
                                 float3 normal, real radius2, bool in_medium, real3 direction, real g) {
   Gathered sum = {0, 0, 0, 0, 0, 0, 0};
   GatherLanes lanes = gather_lanes_empty();
   real radius = sqrt(radius2);
-  uint stride = photon_stride(grid.photon_count);
   uint i0, j0, k0;
   uint ni = gather_window(point.x, radius, grid.origin.x, grid.origin.w, grid.nx, &i0);
   uint nj = gather_window(point.y, radius, grid.origin.y, grid.origin.w, grid.ny, &j0);
@@ -155,9 +153,9 @@ OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global con
       for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
         uint begin = part == 0 ? row[i0] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && in_medium)
-          gather_range_medium(sorted, stride, begin, end, point, direction, g, radius2, &sum);
+          gather_range_medium(sorted, begin, end, point, direction, g, radius2, &sum);
         else
-          gather_range(sorted, stride, begin, end, point, normal, radius2, &lanes, &sum);
+          gather_range(sorted, begin, end, point, normal, radius2, &lanes, &sum);
       }
     }
   }
@@ -167,13 +165,13 @@ OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global con
 
 // Sums over all photons on surfaces within sqrt(radius2) of `point`, and over those within half that
 // radius: what the two say differently of the density is a measure of how much the larger one blurs.
-INLINE Gathered gather(Grid grid, global const uint *starts, global const uint *sorted, real3 point, float3 normal,
-                       real radius2) {
+INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
+                       float3 normal, real radius2) {
   return gather_buckets(grid, starts, sorted, point, normal, radius2, false, (real3)(0, 0, 0), 0);
 }
 
 // The same in the medium, see gather_range_medium.
-INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const uint *sorted, real3 point,
+INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
                               real3 direction, real g, real radius2) {
   return gather_buckets(grid, starts, sorted, point, (float3)(0, 0, 0), radius2, true, direction, g);
 }

@@ -44,10 +44,3 @@ INLINE real3 direction_unpack(uint packed) {
   if (z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
   return normalize((real3)(p.x, p.y, z));
 }
-
-// The sorted photons are six arrays: positions as real x, y, z, then words of normal, flux_rg, flux_b. The distance
-// between two of them leaves room to read eight at a time past the last.
-INLINE uint photon_stride(uint photon_count) { return (photon_count + 15u) & ~7u; }
-INLINE global const uint *photon_words(global const uint *sorted, uint stride) {
-  return (global const uint *)((global const real *)sorted + 3 * stride);
-}

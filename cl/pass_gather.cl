@@ -6,7 +6,7 @@
 // diffuse surface. For choosing the first radius.
 #define COUNT_NOTHING 0xffffffffu
 kernel void count_around(global const VisiblePoint *visible_points, global const uint *starts,
-                         global const uint *sorted, global uint *photon_counts, Grid grid, Params params) {
+                         global const PhotonBlock *sorted, global uint *photon_counts, Grid grid, Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count * params.visible_points) return;
   VisiblePoint point = visible_points[i];
@@ -25,7 +25,7 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
 // the film, with how much less half the radius around each point says; equations (8) and (9) update its radius. With
 // params.radius2 > 0 that radius holds for all pixels.
 kernel void gather_photons(global const VisiblePoint *visible_points, global SppmPixel *pixels,
-                           global FilmPixel *film, global const uint *starts, global const uint *sorted,
+                           global FilmPixel *film, global const uint *starts, global const PhotonBlock *sorted,
                            volatile global Counters *counters, Grid grid, Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count) return;

@@ -6,11 +6,12 @@
 
 INLINE real3 photon_position(global const Photon *photon) { return vload3(0, photon->position); }
 
-// counts[b] = photons in bucket b; must be zero before.
-kernel void count_photons(global const Photon *photons, volatile global uint *counts, Grid grid) {
+// counts[b] = photons in bucket b; must be zero before. ranks[i] = those counted there before photon i: in an order
+// that execution gives, and nothing that follows depends on it, since sums over photons are sums of integers.
+kernel void count_photons(global const Photon *photons, volatile global uint *counts, global uint *ranks, Grid grid) {
   uint i = get_global_id(0);
   if (i >= grid.photon_count) return;
-  atomic_inc(counts + grid_bucket(grid, photon_position(photons + i)));
+  ranks[i] = atomic_inc(counts + grid_bucket(grid, photon_position(photons + i)));
 }
 
 // sums[s] = total of segment s of `counts`, which has `size` entries.
@@ -33,30 +34,34 @@ kernel void scan_sums(global uint *sums, uint segments) {
   }
 }
 
-// starts[b] = photons in all buckets before b, for b = 0 ... size; cursors holds the same numbers.
-kernel void scan_segments(global uint *cursors, global const uint *sums, global uint *starts, uint size) {
+// starts[b] = photons in all buckets before b, for b = 0 ... size.
+kernel void scan_segments(global const uint *counts, global const uint *sums, global uint *starts, uint size) {
   uint segment = get_global_id(0), first = segment * SCAN_SEGMENT;
   if (first >= size) return;
   uint total = sums[segment];
   for (uint i = first; i < min(first + SCAN_SEGMENT, size); ++i) {
-    uint next = total + cursors[i];
-    starts[i] = cursors[i] = total;
-    total = next;
+    starts[i] = total;
+    total += counts[i];
   }
   if (first + SCAN_SEGMENT >= size) starts[size] = total;
 }
 
-// Moves photons to their bucket's range, as six arrays. The order within a bucket is that of execution, and
-// nothing that follows depends on it: sums over photons are sums of integers.
-kernel void move_photons(global const Photon *photons, volatile global uint *cursors, global uint *sorted, Grid grid) {
+// Moves photons to their bucket's range. The lanes of the last block that are left hold nothing.
+kernel void move_photons(global const Photon *photons, global const uint *ranks, global const uint *starts,
+                         global PhotonBlock *sorted, Grid grid) {
   uint i = get_global_id(0);
-  if (i >= grid.photon_count) return;
-  uint slot = atomic_inc(cursors + grid_bucket(grid, photon_position(photons + i)));
-  uint stride = photon_stride(grid.photon_count);
-  global real *position = (global real *)sorted + slot;
-  global uint *words = (global uint *)photon_words(sorted, stride) + slot;
-  for (uint axis = 0; axis < 3; ++axis) position[axis * stride] = photons[i].position[axis];
-  words[0] = photons[i].normal;
-  words[stride] = photons[i].flux_rg;
-  words[2 * stride] = photons[i].flux_b;
+  Photon photon = {{0, 0, 0}, 0, 0, 0};
+  uint slot = i;
+  if (i < grid.photon_count) {
+    photon = photons[i];
+    slot = starts[grid_bucket(grid, photon_position(photons + i))] + ranks[i];
+  } else if (i >= (grid.photon_count + 7) / 8 * 8) {
+    return;
+  }
+  global PhotonBlock *block = sorted + slot / 8;
+  uint lane = slot % 8;
+  for (uint axis = 0; axis < 3; ++axis) block->position[axis][lane] = photon.position[axis];
+  block->normal[lane] = photon.normal;
+  block->flux_rg[lane] = photon.flux_rg;
+  block->flux_b[lane] = photon.flux_b;
 }

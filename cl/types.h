@@ -271,14 +271,23 @@ typedef struct {
   uint flux_rg;        // red in the low 16 bits, green in the high ones
   uint flux_b;
 } Photon;
-#define PHOTON_WORDS 6u
+
+// Eight photons as the gather takes them, eight at a time. In the sorted map photon i is lane i % 8 of block i / 8.
+typedef struct {
+  real position[3][8];
+  uint normal[8];
+  uint flux_rg[8];
+  uint flux_b[8];
+} PhotonBlock;
 
 #ifdef CAUSTICL_DOUBLE
 CHECK_SIZE(VisiblePoint, 80);
 CHECK_SIZE(Photon, 40);
+CHECK_SIZE(PhotonBlock, 288);
 #else
 CHECK_SIZE(VisiblePoint, 40);
 CHECK_SIZE(Photon, 24);
+CHECK_SIZE(PhotonBlock, 192);
 #endif
 
 // The grid of photons: space is cut into cubes of `cell` units; cube (i, j, k) owns bucket

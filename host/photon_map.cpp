@@ -57,9 +57,8 @@ Counters PhotonMap::trace(Params params) {
 /// Makes room for `wanted` photons. False, and all as it was, where the device has not that much.
 bool PhotonMap::reserve_photons(std::uint64_t wanted) {
   if (wanted <= capacity_) return true;
-  // Words of sorted photons are indexed by 32 bits.
-  if (wanted > 0xfffffff0u / PHOTON_WORDS) return false;
-  photons_ = {};  // first, so that the device need not hold both
+  if (wanted >= 0x80000000u) return false;  // beyond LIST_LIMIT of cl/work_group.cl they are not told apart
+  photons_ = {};                            // first, so that the device need not hold both
   try {
     photons_ = device_.buffer(wanted * photon_bytes_, "photons");
   } catch (const DeviceError&) {
@@ -72,7 +71,7 @@ bool PhotonMap::reserve_photons(std::uint64_t wanted) {
 
 void PhotonMap::reserve_buckets(std::size_t buckets) {
   if (buckets <= bucket_capacity_) return;
-  cursors_ = device_.buffer(buckets * sizeof(cl_uint), "photon grid");
+  counts_ = device_.buffer(buckets * sizeof(cl_uint), "photon grid");
   starts_ = device_.buffer((buckets + 1) * sizeof(cl_uint), "photon grid");
   sums_ = device_.buffer(segments_of(buckets) * sizeof(cl_uint), "photon grid");
   bucket_capacity_ = buckets;
@@ -104,23 +103,25 @@ void PhotonMap::sort(double cell) {
     move_photons_ = programs_.kernel("grid", "move_photons");
   }
   reserve_buckets(buckets);
-  const std::size_t stride = (static_cast<std::size_t>(stored_) + 15) / 8 * 8;  // photon_stride of cl/grid.cl
-  if (stride > sorted_capacity_) {
+  const std::size_t in_blocks = (static_cast<std::size_t>(stored_) + 7) / 8 * 8;
+  if (in_blocks > sorted_capacity_) {
     sorted_ = {};
-    sorted_ = device_.buffer(stride * photon_bytes_, "sorted photons");
-    sorted_capacity_ = stride;
+    sorted_ = device_.buffer(in_blocks * photon_bytes_, "sorted photons");
+    ranks_ = {};
+    ranks_ = device_.buffer(in_blocks * sizeof(cl_uint), "photon grid");
+    sorted_capacity_ = in_blocks;
   }
-  device_.clear(cursors_, buckets * sizeof(cl_uint));
-  set_arguments(count_photons_, photons_, cursors_, grid_);
+  device_.clear(counts_, buckets * sizeof(cl_uint));
+  set_arguments(count_photons_, photons_, counts_, ranks_, grid_);
   device_.launch_pass(count_photons_, stored_);
-  set_arguments(sum_segments_, cursors_, sums_, static_cast<cl_uint>(buckets));
+  set_arguments(sum_segments_, counts_, sums_, static_cast<cl_uint>(buckets));
   device_.launch_pass(sum_segments_, segments_of(buckets));
   set_arguments(scan_sums_, sums_, static_cast<cl_uint>(segments_of(buckets)));
   device_.launch_pass(scan_sums_, 1);
-  set_arguments(scan_segments_, cursors_, sums_, starts_, static_cast<cl_uint>(buckets));
+  set_arguments(scan_segments_, counts_, sums_, starts_, static_cast<cl_uint>(buckets));
   device_.launch_pass(scan_segments_, segments_of(buckets));
-  set_arguments(move_photons_, photons_, cursors_, sorted_, grid_);
-  device_.launch_pass(move_photons_, stored_);
+  set_arguments(move_photons_, photons_, ranks_, starts_, sorted_, grid_);
+  device_.launch_pass(move_photons_, in_blocks);
 }
 
 }  // namespace causticl

@@ -37,7 +37,7 @@ class PhotonMap {
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record, traced or sorted
-  cl::Buffer counters_, photons_, sorted_, cursors_, sums_, starts_;
+  cl::Buffer counters_, photons_, sorted_, ranks_, counts_, sums_, starts_;
   std::uint32_t capacity_ = 0, stored_ = 0;
   std::uint64_t dropped_ = 0;
   bool full_ = false;  // the device has no room for a larger buffer

@@ -44,8 +44,8 @@ def mesh_scene(mesh):
             "camera": {"position": [0, 5, 8], "target": [0, 0, 0], "fov": 40},
             "objects": [
                 {"type": "mesh", "path": mesh, "material": {"type": "diffuse", "color": [0.7, 0.6, 0.5]}},
-                {"type": "rectangle", "width": 3, "height": 3,
-                 "transform": [{"type": "rotate", "axis": "x", "degree": 90}, {"type": "shift", "x": 0, "y": 6, "z": 0}],
+                {"type": "rectangle",
+                 "transform": [{"type": "scale", "x": 3, "y": 3, "z": 1}, {"type": "rotate", "axis": "x", "degree": 90}, {"type": "shift", "x": 0, "y": 6, "z": 0}],
                  "material": {"type": "diffuse", "color": [0, 0, 0], "emission": [8, 8, 8]}}]}
 
 

@@ -46,7 +46,7 @@ std::size_t bucket_of(const Grid& grid, const Photon& photon) {
   return bucket;
 }
 
-using Words = std::array<uint, PHOTON_WORDS>;
+using Words = std::array<uint, sizeof(Photon) / sizeof(uint)>;
 
 }  // namespace
 
@@ -82,8 +82,7 @@ TEST_CASE("the counting sort gives exact prefix sums and a permutation, whatever
     CHECK(starts == expected);
 
     // The photons of each bucket, as a set: compared bucket after bucket in sorted order.
-    const std::size_t stride = sorted_stride(c.photons);
-    const auto words = test_device().download<uint>(map.sorted, c.photons ? stride * PHOTON_WORDS : 0);
+    const auto blocks = test_device().download<PhotonBlock>(map.sorted, photon_blocks(c.photons));
     std::vector<std::pair<std::size_t, Words>> in, out;
     for (const auto& photon : photons) {
       Words w;
@@ -93,8 +92,14 @@ TEST_CASE("the counting sort gives exact prefix sums and a permutation, whatever
     std::size_t bucket = 0;
     for (std::size_t i = 0; i < c.photons; ++i) {
       while (expected[bucket + 1] <= i) ++bucket;
+      const PhotonBlock& block = blocks[i / 8];
+      const std::size_t lane = i % 8;
+      const Photon photon{{block.position[0][lane], block.position[1][lane], block.position[2][lane]},
+                          block.normal[lane],
+                          block.flux_rg[lane],
+                          block.flux_b[lane]};
       Words w;
-      for (std::size_t word = 0; word < PHOTON_WORDS; ++word) w[word] = words[word * stride + i];
+      std::memcpy(w.data(), &photon, sizeof photon);
       out.push_back({bucket, w});
     }
     std::sort(in.begin(), in.end());

@@ -39,7 +39,7 @@ kernel void pack(global const float4 *in, global float4 *out, uint count) {
   uint packed = direction_pack(in[i].xyz);
   out[i] = (float4)(direction_unpack(packed), packed & IN_MEDIUM ? 1 : 0);
 }
-kernel void collect(Grid grid, global const uint *starts, global const uint *sorted, global const float4 *points,
+kernel void collect(Grid grid, global const uint *starts, global const PhotonBlock *sorted, global const float4 *points,
                     global ulong4 *out, uint count, float4 direction, float g, float radius2) {
   uint i = get_global_id(0);
   if (i >= count) return;

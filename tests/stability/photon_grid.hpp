@@ -37,7 +37,7 @@ struct SortedPhotons {
   cl::Buffer starts, sorted;
 };
 
-inline std::size_t sorted_stride(std::size_t photons) { return (photons + 15) & ~std::size_t(7); }
+inline std::size_t photon_blocks(std::size_t photons) { return (photons + 7) / 8; }
 
 /// Runs count, sum, scan and move as the photon map does.
 inline SortedPhotons sort_photons(Device& device, const cl::Program& program,
@@ -45,22 +45,23 @@ inline SortedPhotons sort_photons(Device& device, const cl::Program& program,
   constexpr std::size_t segment = 256;  // SCAN_SEGMENT
   const std::size_t buckets = bucket_count(grid), segments = (buckets + segment - 1) / segment;
   auto in = device.upload(photons, "photons");
-  auto cursors = device.buffer(buckets * sizeof(cl_uint), "cursors"),
+  auto counts = device.buffer(buckets * sizeof(cl_uint), "counts"),
+       ranks = device.buffer(photons.size() * sizeof(cl_uint), "ranks"),
        sums = device.buffer(segments * sizeof(cl_uint), "sums");
   SortedPhotons result{device.buffer((buckets + 1) * sizeof(cl_uint), "starts"),
-                       device.buffer(sorted_stride(photons.size()) * sizeof(Photon), "sorted")};
-  device.clear(cursors, buckets * sizeof(cl_uint));
+                       device.buffer(photon_blocks(photons.size()) * sizeof(PhotonBlock), "sorted")};
+  device.clear(counts, buckets * sizeof(cl_uint));
   const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
     if (items == 0) return;
     cl::Kernel kernel(program, name);
     set_arguments(kernel, arguments...);
     device.launch(kernel, items);
   };
-  run("count_photons", photons.size(), in, cursors, grid);
-  run("sum_segments", segments, cursors, sums, cl_uint(buckets));
+  run("count_photons", photons.size(), in, counts, ranks, grid);
+  run("sum_segments", segments, counts, sums, cl_uint(buckets));
   run("scan_sums", 1, sums, cl_uint(segments));
-  run("scan_segments", segments, cursors, sums, result.starts, cl_uint(buckets));
-  run("move_photons", photons.size(), in, cursors, result.sorted, grid);
+  run("scan_segments", segments, counts, sums, result.starts, cl_uint(buckets));
+  run("move_photons", 8 * photon_blocks(photons.size()), in, ranks, result.starts, result.sorted, grid);
   device.queue().finish();
   return result;
 }
@@ -82,7 +83,7 @@ constexpr const char* gather_source = R"(
 #include "pass_grid.cl"
 #include "pass_gather.cl"
 // One gather for each point; w of a point holds its packed normal.
-kernel void gather_points(global const float4 *points, global const uint *starts, global const uint *sorted,
+kernel void gather_points(global const float4 *points, global const uint *starts, global const PhotonBlock *sorted,
                           global ulong4 *sums, Grid grid, float radius2, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
