@@ -1,4 +1,5 @@
 // causticl: the whole flow, one call a line.
+#include <chrono>
 #include <cstdio>
 #include <new>
 
@@ -11,6 +12,7 @@
 #include "progress.hpp"
 #include "render_setup.hpp"
 #include "report.hpp"
+#include "selftest_processes.hpp"
 #include "stability_checks.hpp"
 
 namespace {
@@ -64,15 +66,19 @@ int explain(const Options& options) {
 int selftest(const Options& options) {
   if (!options.json.empty()) check_writable(options.json);
   const auto checks = wanted_checks(stability_checks(), options.selftest);
+  const auto start = std::chrono::steady_clock::now();
+  SelftestProcesses processes(checks, options.selftest, options.device);
   const DeviceInfo device_info = find_device(options.device);
   Device device(device_info, options.threads);
   std::fputs(selftest_heading(device_info, options.selftest).c_str(), stdout);
-  const auto rows = run_selftest(device, checks, options.selftest, [](const SelftestRow& row) {
+  const auto rows = processes.run(device, [](const SelftestRow& row) {
     std::fputs(selftest_line(row).c_str(), stdout);
     std::fflush(stdout);
   });
-  std::fputs(selftest_verdict(rows, options.selftest).c_str(), stdout);
-  if (!options.json.empty()) write_file(options.json, selftest_json(device_info, rows, options.selftest));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::fputs(selftest_verdict(rows, options.selftest, seconds).c_str(), stdout);
+  if (!options.json.empty())
+    write_file(options.json, selftest_json(device_info, rows, options.selftest, seconds));
   return selftest_passed(rows) ? done : fault_of_device;
 }
 

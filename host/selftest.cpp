@@ -57,21 +57,25 @@ std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOption
   return checks;
 }
 
+SelftestRow run_check(Device& device, const Check& check, const SelftestOptions& options) {
+  CheckContext context{device,       options.kernel_dir, inputs_of(check, options),
+                       options.seed, options.threads,    {}};
+  if (!options.replay.empty()) context.replay = parse_replay(options.replay);
+  const auto start = std::chrono::steady_clock::now();
+  SelftestRow row{check, check.run(context)};
+  row.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (context.replay && !context.replayed)
+    throw UserError("--replay: the check \"" + check.name +
+                    "\" has no inputs to replay; expected one that printed them");
+  return row;
+}
+
 std::vector<SelftestRow> run_selftest(Device& device, const std::vector<Check>& checks,
                                       const SelftestOptions& options,
                                       const std::function<void(const SelftestRow&)>& report) {
-  CheckContext context{device, options.kernel_dir, 0, options.seed, options.threads, {}};
-  if (!options.replay.empty()) context.replay = parse_replay(options.replay);
   std::vector<SelftestRow> rows;
   for (const auto& check : checks) {
-    context.inputs = inputs_of(check, options);
-    const auto start = std::chrono::steady_clock::now();
-    rows.push_back({check, check.run(context)});
-    CheckResult& result = rows.back().result;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (context.replay && !context.replayed)
-      throw UserError("--replay: the check \"" + check.name +
-                      "\" has no inputs to replay; expected one that printed them");
+    rows.push_back(run_check(device, check, options));
     if (report) report(rows.back());
   }
   return rows;
@@ -104,12 +108,11 @@ std::string selftest_line(const SelftestRow& row) {
   return line + (remark.empty() ? "" : "; " + remark) + "\n";
 }
 
-std::string selftest_verdict(const std::vector<SelftestRow>& rows, const SelftestOptions& options) {
+std::string selftest_verdict(const std::vector<SelftestRow>& rows, const SelftestOptions& options,
+                             double seconds) {
   std::string text;
   std::size_t failed = 0, skipped = 0;
-  double seconds = 0;
   for (const auto& row : rows) {
-    seconds += row.result.seconds;
     skipped += !row.result.skipped.empty();
     if (row.result.failures == 0) continue;
     ++failed;
@@ -132,11 +135,9 @@ std::string selftest_verdict(const std::vector<SelftestRow>& rows, const Selftes
 }
 
 std::string selftest_json(const DeviceInfo& device, const std::vector<SelftestRow>& rows,
-                          const SelftestOptions& options) {
+                          const SelftestOptions& options, double seconds) {
   nlohmann::ordered_json checks = nlohmann::ordered_json::array();
-  double seconds = 0;
   for (const auto& [check, result] : rows) {
-    seconds += result.seconds;
     checks.push_back({{"case", check.hard_case},
                       {"hard_case", hard_case_name(check.hard_case)},
                       {"check", check.name},

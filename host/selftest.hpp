@@ -30,20 +30,24 @@ struct SelftestRow {
 /// `replay`.
 std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOptions& options);
 
-/// Runs the checks in order, and hands each row to `report` when it is done. Throws UserError for a `replay`
-/// that the check cannot take.
+/// Runs one. Throws UserError for a `replay` that the check cannot take.
+SelftestRow run_check(Device& device, const Check& check, const SelftestOptions& options);
+
+/// Runs the checks in order, and hands each row to `report` when it is done.
 std::vector<SelftestRow> run_selftest(Device& device, const std::vector<Check>& checks,
                                       const SelftestOptions& options,
                                       const std::function<void(const SelftestRow&)>& report = {});
 
-/// The head of the table, one row of it, and the lines below it: examples of failures, and the verdict.
+/// The head of the table, one row of it, and the lines below it: examples of failures, and the verdict after
+/// `seconds` on the clock.
 std::string selftest_heading(const DeviceInfo& device, const SelftestOptions& options);
 std::string selftest_line(const SelftestRow& row);
-std::string selftest_verdict(const std::vector<SelftestRow>& rows, const SelftestOptions& options);
+std::string selftest_verdict(const std::vector<SelftestRow>& rows, const SelftestOptions& options,
+                             double seconds);
 
 /// The same as one object: device, driver, seed, seconds, passed, and checks with all their numbers.
 std::string selftest_json(const DeviceInfo& device, const std::vector<SelftestRow>& rows,
-                          const SelftestOptions& options);
+                          const SelftestOptions& options, double seconds);
 
 bool selftest_passed(const std::vector<SelftestRow>& rows);
 

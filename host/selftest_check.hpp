@@ -48,6 +48,8 @@ struct Check {
   std::string name;          // what is claimed, in a few words
   std::uint64_t input_cost;  // how many of the cheapest check's inputs take the time of one of this
   CheckResult (*run)(CheckContext&);
+  std::string programs =
+      {};  // checks that share kernel programs, which take seconds to compile, have the same
 };
 
 /// Words as the argument of `--replay`: each as a hexadecimal float, or as #hexadecimal bits where it is no

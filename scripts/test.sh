@@ -37,5 +37,6 @@ else
   echo "The format is not checked: that needs clang-format 14." >&2
 fi
 
-ctest --test-dir "$root/$folder" --output-on-failure --no-tests=error "${ctest_options[@]}" </dev/null
+# Side by side: most of the time of a test goes into compiling kernels, on one core each.
+ctest --test-dir "$root/$folder" -j "$(nproc)" --output-on-failure --no-tests=error "${ctest_options[@]}" </dev/null
 $formatted || fail "the tests passed, but the format differs (above); run clang-format -i on those files"

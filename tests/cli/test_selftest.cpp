@@ -61,6 +61,25 @@ TEST_CASE("selftest prints a row for each check and writes the same as JSON") {
   }
 }
 
+TEST_CASE("several processes find what one finds, in the same order") {
+  const TemporaryFolder folder;
+  // Files of checks, which are divided among the processes; a number of threads asks for one process.
+  std::vector<nlohmann::json> reports;
+  for (const bool alone : {false, true}) {
+    std::vector<std::string> words{"--inputs", "2000", "--seed", "3",       "--json", "report.json",
+                                   "--case",   "1",    "--case", "12",      "--case", "16",
+                                   "--case",   "21",   "--case", "division"};
+    if (alone) words.insert(words.end(), {"--threads", "1"});
+    const auto run = selftest(folder, words);
+    CAPTURE(run.output, run.errors);
+    CHECK(run.exit_code == 0);
+    reports.push_back(nlohmann::json::parse(text_of(folder.path("report.json"))));
+    for (auto& check : reports.back()["checks"]) check.erase("seconds");
+  }
+  CHECK(reports[0]["checks"].size() >= 10);
+  CHECK(reports[0]["checks"] == reports[1]["checks"]);
+}
+
 TEST_CASE("a check that fails is named, with exit code 3 and an input that fails again") {
   const TemporaryFolder folder;
   const std::string kernels = mutated_kernels(folder, "prelude.cl", "FP_CONTRACT OFF", "FP_CONTRACT ON");

@@ -16,12 +16,8 @@ constexpr const char* source = R"(
 #include "bezier.cl"
 #include "rng.cl"
 // A ray (number of the curve, origin, direction) and what it meets (t, u, error, position, normal).
-kernel void meet(global const float *rays, global float *results, uint count, global const Shape *shapes,
-                 global const float *curves, uint first_curve) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  global const float *in = rays + 7 * i;
-  global float *out = results + 9 * i;
+OUTLINE void meet_one(global const float *in, global float *out, global const Shape *shapes, global const float *curves,
+                      uint first_curve) {
   global const Shape *shape = shapes + ((uint)in[0] - first_curve);
   Ray ray = {convert_real3(vload3(0, in + 1)), convert_real3(vload3(0, in + 4))};
   real2 parameters;
@@ -36,14 +32,17 @@ kernel void meet(global const float *rays, global float *results, uint count, gl
   vstore3(convert_float3(surface.position), 0, out + 3);
   vstore3(convert_float3(surface.geometric_normal), 0, out + 6);
 }
+kernel void meet(global const float *rays, global float *results, uint count, global const Shape *shapes,
+                 global const float *curves, uint first_curve) {
+  uint i = get_global_id(0);
+  if (i < count) meet_one(rays + 7 * i, results + 9 * i, shapes, curves, first_curve);
+}
 // Follows a photon (index of the shape, seed, path) that bounces inside a closed surface, every fourth time off
 // to a grazing direction, and counts how often it meets nothing; then it starts anew.
-kernel void enclosed(global const uint *photons, global uint *escapes, uint count, global const Shape *shapes,
-                     global const float *curves, global const float4 *starts, uint rays) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  uint index = photons[3 * i], escaped = 0;
-  RandomStream stream = {photons[3 * i + 1], 0, photons[3 * i + 2]};
+OUTLINE uint enclosed_one(global const uint *photon, global const Shape *shapes, global const float *curves,
+                          global const float4 *starts, uint rays) {
+  uint index = photon[0], escaped = 0;
+  RandomStream stream = {photon[1], 0, photon[2]};
   global const Shape *shape = shapes + index;
   Surface surface;
   bool bounced = false;
@@ -65,7 +64,12 @@ kernel void enclosed(global const uint *photons, global uint *escapes, uint coun
     Hit hit = {t, HIT_SHAPE, parameters.x, parameters.y};
     if (bounced) bezier_surface(shape, curves, ray, hit, &surface);
   }
-  escapes[i] = escaped;
+  return escaped;
+}
+kernel void enclosed(global const uint *photons, global uint *escapes, uint count, global const Shape *shapes,
+                     global const float *curves, global const float4 *starts, uint rays) {
+  uint i = get_global_id(0);
+  if (i < count) escapes[i] = enclosed_one(photons + 3 * i, shapes, curves, starts, rays);
 }
 )";
 

@@ -60,7 +60,6 @@ Scene furnace(bool closed_sphere) {
     scene.materials.push_back(materials[i].spec);
   }
   if (closed_sphere) scene.objects.push_back(make_sphere({0, 0, 0}, 4, 1));
-  call_for_all_effects(scene, 1, {});
   return scene;
 }
 
@@ -192,7 +191,6 @@ Scene dark_tube(bool camera_inside, Integrator integrator) {
     for (const double x : {3.6, -3.5}) scene.objects.push_back(make_sphere({x, 0, 0}, 0.1, 2));
     scene.camera = make_camera({0, 6, 6}, {0, 0, 0}, 1);
   }
-  call_for_all_effects(scene, 1, {});
   return scene;
 }
 
@@ -214,10 +212,10 @@ CheckResult dark_inside(CheckContext& context) {
 }  // namespace
 
 std::vector<Check> energy_checks() {
-  return {{14, "white furnace: no material loses or gains", 3, white_furnace},
-          {14, "a closed sphere with K_d = L_e = 1/2 is 1", 3, closed_sphere},
-          {14, "white balls under an even sky of 1 are 1", 3, environment_furnace},
-          {15, "no light through closed smooth meshes", 10, dark_inside}};
+  return {{14, "white furnace: no material loses or gains", 3, white_furnace, pass_programs},
+          {14, "a closed sphere with K_d = L_e = 1/2 is 1", 3, closed_sphere, pass_programs},
+          {14, "white balls under an even sky of 1 are 1", 3, environment_furnace, pass_programs},
+          {15, "no light through closed smooth meshes", 10, dark_inside, pass_programs}};
 }
 
 }  // namespace causticl

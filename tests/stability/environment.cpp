@@ -16,7 +16,7 @@ typedef struct {
   float4 weight;     // radiance / density of light_sample
   float4 found;      // radiance that a ray in this direction finds; w: density that goes with it
 } Drawn;
-INLINE void draw_direction(const Scene *scene, real4 random, global Drawn *out) {
+OUTLINE void draw_direction(const Scene *scene, real4 random, global Drawn *out) {
   LightSample light = light_sample(scene, (real3)(0, 0, 0), random);
   bool distant = emitter_choose(scene, random.x, random.w) == scene->emitter_count - 1;
   real pdf;

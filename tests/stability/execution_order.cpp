@@ -3,7 +3,7 @@
 
 #include "photon_grid.hpp"
 #include "random_check.hpp"
-#include "render.hpp"
+#include "scene_parts.hpp"
 #include "stability_checks.hpp"
 
 namespace causticl {
@@ -38,6 +38,11 @@ class WorkGroups {
   std::size_t size_;
 };
 
+/// PoCL compiles all kernels anew for each size: --quick tries the most unlike alone.
+std::vector<std::size_t> sizes_to_try(const CheckContext& context) {
+  return context.inputs < 1000000 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 32, 256};
+}
+
 /// Photons in a box, shuffled before each sort as if they had been stored in another order. All are bright
 /// and many lie around each point, so that sums in single precision would round.
 CheckResult sort_and_gather(CheckContext& context) {
@@ -62,7 +67,7 @@ CheckResult sort_and_gather(CheckContext& context) {
   const auto expected = gather_photons(context.device, program, points, photons, grid, 0.25f);
   WorkGroups groups(context.device);
   do {
-    groups.each({1, 32, 256}, result.note, [&] {
+    groups.each(sizes_to_try(context), result.note, [&] {
       for (std::size_t i = photon_count - 1; i > 0; --i)
         std::swap(photons[i], photons[random.below(static_cast<std::uint32_t>(i + 1))]);
       const auto sums = gather_photons(context.device, program, points, photons, grid, 0.25f);
@@ -113,21 +118,14 @@ CheckResult picture(CheckContext& context) {
   CheckResult result;
   const std::uint64_t photons = std::clamp<std::uint64_t>(context.inputs / 16, 1000, 1000000);
   const Scene scene = small_scene(photons);
-  RenderOptions options;
-  options.seed = context.seed;
-  options.threads = context.threads;
-  options.kernel_dir = context.kernel_dir;
   const auto render = [&] {
-    const RenderResult rendered = render_scene(scene, context.device, options);
+    const RenderResult rendered = render_for(context, scene);
     result.inputs += rendered.statistics.photons;
     return rendered.picture.rgb;
   };
   const auto expected = render();
   WorkGroups groups(context.device);
-  // PoCL compiles all kernels anew for each size: --quick tries the most unlike alone.
-  const auto sizes =
-      context.inputs < 1000000 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 32, 256};
-  groups.each(sizes, result.note, [&] {
+  groups.each(sizes_to_try(context), result.note, [&] {
     const auto pixels = render();
     for (std::size_t i = 0; i < expected.size(); ++i)
       result.failures += std::memcmp(&pixels[i], &expected[i], sizeof(float)) != 0;
@@ -139,7 +137,7 @@ CheckResult picture(CheckContext& context) {
 
 std::vector<Check> execution_order_checks() {
   return {{20, "sorting and gathering in any order", 1, sort_and_gather},
-          {20, "a picture in any order of execution", 1, picture}};
+          {20, "a picture in any order of execution", 1, picture, pass_programs}};
 }
 
 }  // namespace causticl

@@ -77,7 +77,7 @@ class SampleKernel {
       samples_ = device_.buffer(capacity_ * sizeof(Sample), "samples of a check");
     }
     set_arguments(kernel_, samples_, static_cast<cl_uint>(count), static_cast<cl_uint>(first), seed_);
-    device_.launch(kernel_, count);
+    device_.launch_pass(kernel_, count);
     return device_.download<Sample>(samples_, count);
   }
 

@@ -17,7 +17,7 @@ typedef struct {
   float hit_t;
   uint emitter;
 } Drawn;
-INLINE void draw_light(const Scene *scene, real4 random, global Drawn *out) {
+OUTLINE void draw_light(const Scene *scene, real4 random, global Drawn *out) {
   LightSample light = light_sample(scene, (real3)(0, 0, 0), random);
   out->point = (float4)(convert_float3(light.direction * light.distance), 0);
   out->pdf = light.pdf;

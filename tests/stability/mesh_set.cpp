@@ -43,31 +43,37 @@ INLINE MeshHit mesh_hit(global const TriangleBlock *blocks, Hit hit) {
   global const MeshRange *ranges, global const KdNode *nodes, global const TriangleBlock *blocks, \
       global const TriangleBlock *list
 
+OUTLINE MeshHit tree_closest(global const MeshRay *in, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  Hit hit = hit_none(in->t_max);
+  kdtree_closest(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(in), &hit);
+  return mesh_hit(blocks + range.first_block, hit);
+}
 kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0);
-  if (i >= count) return;
-  MeshRange range = ranges[rays[i].mesh];
-  Hit hit = hit_none(rays[i].t_max);
-  kdtree_closest(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(rays + i), &hit);
-  hits[i] = mesh_hit(blocks + range.first_block, hit);
+  if (i < count) hits[i] = tree_closest(rays + i, ranges, nodes, blocks, list);
+}
+OUTLINE uint tree_occluded(global const MeshRay *in, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  uint faults = 0;
+  uint occluded = kdtree_occluded(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(in), in->t_max,
+                                  &faults);
+  return faults ? 2u : occluded;
 }
 kernel void mesh_occluded(global const MeshRay *rays, global uint *met, uint count, MESHES) {
   uint i = get_global_id(0);
-  if (i >= count) return;
-  MeshRange range = ranges[rays[i].mesh];
-  uint faults = 0;
-  uint occluded = kdtree_occluded(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(rays + i),
-                                  rays[i].t_max, &faults);
-  met[i] = faults ? 2u : occluded;
+  if (i < count) met[i] = tree_occluded(rays + i, ranges, nodes, blocks, list);
+}
+OUTLINE MeshHit brute_force(global const MeshRay *in, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  TriangleRay ray = triangle_ray(mesh_ray(in));
+  Hit hit = hit_none(in->t_max);
+  for (uint b = 0; b < range.listed; ++b) block_closest(list + range.first_listed, b * BLOCK_STRIDE, ray, &hit);
+  return mesh_hit(list + range.first_listed, hit);
 }
 kernel void mesh_brute_force(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0);
-  if (i >= count) return;
-  MeshRange range = ranges[rays[i].mesh];
-  TriangleRay ray = triangle_ray(mesh_ray(rays + i));
-  Hit hit = hit_none(rays[i].t_max);
-  for (uint b = 0; b < range.listed; ++b) block_closest(list + range.first_listed, b * BLOCK_STRIDE, ray, &hit);
-  hits[i] = mesh_hit(list + range.first_listed, hit);
+  if (i < count) hits[i] = brute_force(rays + i, ranges, nodes, blocks, list);
 }
 )";
 

@@ -4,8 +4,7 @@
 
 #include "faults.hpp"
 #include "random_check.hpp"
-#include "render.hpp"
-#include "scene.hpp"
+#include "scene_parts.hpp"
 #include "stability_checks.hpp"
 #include "types.h"
 
@@ -138,14 +137,9 @@ Scene bad_texture_scene(std::uint64_t inputs, float first, float second, Integra
 /// counted.
 CheckResult bad_texels(CheckContext& context) {
   CheckResult result;
-  RenderOptions options;
-  options.kernel_dir = context.kernel_dir;
-  options.seed = context.seed;
-  options.threads = context.threads;
   for (const Integrator integrator : {Integrator::sppm, Integrator::pt}) {
     const auto render = [&](float first, float second) {
-      return render_scene(bad_texture_scene(context.inputs, first, second, integrator), context.device,
-                          options);
+      return render_for(context, bad_texture_scene(context.inputs, first, second, integrator));
     };
     const RenderResult bad = render(NAN, INFINITY), black = render(0, 0);
     for (std::size_t i = 0; i < black.picture.rgb.size(); ++i)
@@ -160,7 +154,7 @@ CheckResult bad_texels(CheckContext& context) {
 
 std::vector<Check> non_finite_checks() {
   return {{22, "the film leaves out what is not finite", 1, film_leaves_out},
-          {22, "bad texels change a counter and no pixel", 1, bad_texels}};
+          {22, "bad texels change a counter and no pixel", 1, bad_texels, pass_programs}};
 }
 
 }  // namespace causticl

@@ -66,31 +66,6 @@ inline Mesh torus(int columns, int rows, double radius, double tube) {
   return mesh;
 }
 
-/// Adds objects that call for every shape but revolved curves (which double the time to compile), and for
-/// every material and texture of the kernels, where nothing sees them:
-/// beyond a black plane at y = -50 `unit`. Scenes with the same effects share their programs, which take
-/// seconds to compile.
-inline void call_for_all_effects(Scene& scene, double unit, Vec3 shift) {
-  const int first = static_cast<int>(scene.materials.size());
-  MaterialSpec textured = make_material(MaterialSpec::Kind::diffuse, 0);
-  textured.color_texture = static_cast<int>(scene.textures.size());
-  TextureSpec black;
-  black.kind = TextureSpec::Kind::checker;
-  scene.textures.push_back(black);
-  scene.materials.insert(scene.materials.end(), {make_material(MaterialSpec::Kind::diffuse, 0),
-                                                 make_material(MaterialSpec::Kind::mirror, 1),
-                                                 make_material(MaterialSpec::Kind::glass, 1), textured});
-  const auto place = [&](Vec3 p) {
-    return Transform::scale({unit, unit, unit}).followed_by(Transform::shift(shift + p * unit));
-  };
-  scene.objects.push_back(
-      make_object(Object::Shape::plane,
-                  Transform::rotate(0, -std::numbers::pi / 2).followed_by(place({0, -50, 0})), first));
-  scene.objects.push_back(make_object(Object::Shape::disk, place({2, -52, 0}), first + 1));
-  scene.objects.push_back(make_object(Object::Shape::rectangle, place({4, -52, 0}), first + 2));
-  scene.objects.push_back(make_sphere(shift + Vec3{6, -52, 0} * unit, 0.5 * unit, first + 3));
-}
-
 /// How a number of inputs, which are pixels times passes, is spent on `renders` pictures: more passes first,
 /// then larger pictures, since every pass costs some launches.
 struct RenderBudget {
@@ -112,8 +87,11 @@ struct RenderBudget {
   std::uint64_t inputs() const { return std::uint64_t{1} * side * side * passes; }
 };
 
+/// Renders with kernels for whatever any of these scenes holds: one set of programs, which take seconds each
+/// to compile, serves all of them.
 inline RenderResult render_for(CheckContext& context, const Scene& scene) {
   RenderOptions options;
+  options.effects = "triangles,spheres,planes,disks,textures,mirror,glass,shadow_rays,environment";
   options.kernel_dir = context.kernel_dir;
   options.seed = context.seed;
   options.threads = context.threads;

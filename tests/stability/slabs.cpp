@@ -49,16 +49,19 @@ typedef struct {
   float origin[3], direction[3];
 } AxisRay;
 
-kernel void through_tree(global const AxisRay *in, global float2 *out, uint count, global const KdNode *nodes,
-                         global const TriangleBlock *blocks, global const Shape *shapes) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  Ray ray = load_ray(in[i].origin, in[i].direction);
+OUTLINE float2 through_tree_one(global const AxisRay *in, global const KdNode *nodes,
+                                global const TriangleBlock *blocks, global const Shape *shapes) {
+  Ray ray = load_ray(in->origin, in->direction);
   Hit hit = {INFINITY, HIT_NONE, 0, 0, 0};
   kdtree_closest(nodes, blocks, shapes, 0, ray, &hit);
   uint faults = 0;
   bool occluded = kdtree_occluded(nodes, blocks, shapes, 0, ray, INFINITY, &faults);
-  out[i] = (float2)(hit.t, occluded && faults == 0 && hit.faults == 0);
+  return (float2)(hit.t, occluded && faults == 0 && hit.faults == 0);
+}
+kernel void through_tree(global const AxisRay *in, global float2 *out, uint count, global const KdNode *nodes,
+                         global const TriangleBlock *blocks, global const Shape *shapes) {
+  uint i = get_global_id(0);
+  if (i < count) out[i] = through_tree_one(in + i, nodes, blocks, shapes);
 }
 )";
 

@@ -20,29 +20,35 @@ typedef struct {
   float origin[3], direction[3], way[3], sine;
 } OutgoingRay;
 
+OUTLINE void shape_spawn_one(global const OutgoingRay *in, global SpawnedRay *out, global const Shape *shapes,
+                             global const float *curves) {
+  Ray ray = {load3(in->origin), load3(in->direction)};
+  *out = spawn_from_shape(shapes + in->shape, curves, ray, load3(in->way), in->sine);
+}
 kernel void shape_spawn(global const OutgoingRay *in, global SpawnedRay *out, uint count, global const Shape *shapes,
                         global const float *curves) {
   uint i = get_global_id(0);
-  if (i >= count) return;
-  Ray ray = {load3(in[i].origin), load3(in[i].direction)};
-  out[i] = spawn_from_shape(shapes + in[i].shape, curves, ray, load3(in[i].way), in[i].sine);
+  if (i < count) shape_spawn_one(in + i, out + i, shapes, curves);
 }
 // One block of eight triangles is a closed mesh.
+OUTLINE void mesh_spawn_one(global const OutgoingRay *in, global SpawnedRay *out, global const TriangleBlock *blocks,
+                            global const TriangleAttributes *attributes) {
+  Ray ray = {load3(in->origin), load3(in->direction)};
+  SpawnedRay spawned = spawned_none();
+  Hit hit = {INFINITY, HIT_NONE, 0, 0, 0}, again = hit;
+  if (block_closest(blocks, in->shape, triangle_ray(ray), &hit)) {
+    Surface surface;
+    triangle_surface(blocks, attributes, hit, &surface);
+    Ray next = spawn(surface, hit.t, load3(in->way), in->sine, &spawned);
+    if (block_closest(blocks, in->shape, triangle_ray(next), &again)) spawned.again = again.t;
+    spawned.same_face = again.primitive == hit.primitive;
+  }
+  *out = spawned;
+}
 kernel void mesh_spawn(global const OutgoingRay *in, global SpawnedRay *out, uint count,
                        global const TriangleBlock *blocks, global const TriangleAttributes *attributes) {
   uint i = get_global_id(0);
-  if (i >= count) return;
-  Ray ray = {load3(in[i].origin), load3(in[i].direction)};
-  SpawnedRay spawned = spawned_none();
-  Hit hit = {INFINITY, HIT_NONE, 0, 0, 0}, again = hit;
-  if (block_closest(blocks, in[i].shape, triangle_ray(ray), &hit)) {
-    Surface surface;
-    triangle_surface(blocks, attributes, hit, &surface);
-    Ray next = spawn(surface, hit.t, load3(in[i].way), in[i].sine, &spawned);
-    if (block_closest(blocks, in[i].shape, triangle_ray(next), &again)) spawned.again = again.t;
-    spawned.same_face = again.primitive == hit.primitive;
-  }
-  out[i] = spawned;
+  if (i < count) mesh_spawn_one(in + i, out + i, blocks, attributes);
 }
 )";
 

@@ -30,7 +30,11 @@ std::vector<Check> stability_checks() {
                             random_number_checks(),
                             non_finite_checks(),
                             arithmetic_checks()})
-    all.insert(all.end(), group.begin(), group.end());
+    for (Check check : group) {
+      // A file's checks share its kernels, unless they say otherwise.
+      if (check.programs.empty()) check.programs = group.front().name;
+      all.push_back(check);
+    }
   std::stable_sort(all.begin(), all.end(),
                    [](const Check& a, const Check& b) { return a.hard_case < b.hard_case; });
   return all;

@@ -5,6 +5,9 @@
 
 namespace causticl {
 
+/// Check::programs of those that render whole pictures.
+inline const std::string pass_programs = "passes";
+
 /// All checks, by number of their hard case.
 std::vector<Check> stability_checks();
 
