@@ -1,6 +1,10 @@
 #include "selftest_processes.hpp"
 
 #include <poll.h>
+#include <signal.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -119,7 +123,10 @@ SelftestProcesses::SelftestProcesses(std::vector<Check> checks, SelftestOptions 
 SelftestProcesses::~SelftestProcesses() {
   close_if_open(groups_in_);
   close_if_open(groups_out_);
-  for (const auto& helper : helpers_) end(helper);
+  for (const auto& helper : helpers_) {
+    kill(helper.process, SIGKILL);  // it may be in the middle of a check that nobody waits for any more
+    end(helper);
+  }
 }
 
 void SelftestProcesses::end(const Helper& helper) {
@@ -129,6 +136,9 @@ void SelftestProcesses::end(const Helper& helper) {
 }
 
 void SelftestProcesses::help(const std::string& spec, int rows) const {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a kernel that does not end shall not outlive who asked for it
+#endif
   try {
     std::optional<Device> device;
     while (const auto group = take_group(groups_out_)) {
