@@ -19,6 +19,7 @@ std::vector<Check> stability_checks() {
                             light_point_checks(),
                             delta_light_checks(),
                             environment_checks(),
+                            media_checks(),
                             fresnel_checks(),
                             rough_lobe_checks(),
                             rough_lobe_sampling_checks(),

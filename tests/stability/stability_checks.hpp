@@ -24,6 +24,7 @@ std::vector<Check> light_sampling_checks();       // hard case 23: the choice of
 std::vector<Check> light_point_checks();          // hard case 23: points on lights
 std::vector<Check> delta_light_checks();          // hard case 23: light without surface
 std::vector<Check> environment_checks();          // hard case 23: light from beyond the scene
+std::vector<Check> media_checks();                // hard cases 12 and 23: glass and medium along a path
 std::vector<Check> fresnel_checks();              // hard case 12
 std::vector<Check> rough_lobe_checks();           // hard case 13
 std::vector<Check> rough_lobe_sampling_checks();  // hard case 13: samples against their density
