@@ -112,6 +112,9 @@ INLINE bool bsdf_is_rough(const Bsdf *bsdf) {
   return HAS(EFFECT_ROUGH) && bsdf->kind != MATERIAL_DIFFUSE && bsdf->alpha > 0;
 }
 
+// Whether the path leaves in the one direction that goes with its arrival.
+INLINE bool bsdf_is_specular(const Bsdf *bsdf) { return bsdf->kind != MATERIAL_DIFFUSE && !bsdf_is_rough(bsdf); }
+
 // What the reflection of a conductor, mirror or coat is tinted by where `cosine` is that of incidence.
 INLINE real3 specular_tint(const Bsdf *bsdf, real cosine) {
   if (HAS(EFFECT_CONDUCTOR) && bsdf->kind == MATERIAL_CONDUCTOR)

@@ -29,5 +29,8 @@
 
 #define EFFECT_ALL ((1u << 19) - 1u)
 
+// Compiled in like an effect, but asked for by the user and by no scene.
+#define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture
+
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)
 #endif

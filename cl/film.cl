@@ -1,4 +1,5 @@
 // The film: exact running sums of radiance estimates.
+#include "layers.cl"
 #include "prelude.cl"
 #include "types.h"
 
@@ -18,12 +19,12 @@ INLINE float luminance(float red, float green, float blue) { return 0.2126f * re
 // Adds the radiance estimate of pass `pass` to a pixel. One that is not finite, or with which the sum would not be, is
 // left out of the mean, and counted. `blur` is what the estimate's luminance owes to the size of its kernel, as far as
 // gather() can tell: see pass_film.cl for what becomes of it and of the spread, which grows as Welford (1962) has it.
-INLINE void film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
+INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
                      volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
     atomic_inc(&counters->non_finite);
     ++pixel->left_out;
-    return;
+    return false;
   }
   float value[3] = {(float)radiance.x, (float)radiance.y, (float)radiance.z}, before[3], hi[3], lo[3];
   for (int c = 0; c < 3; ++c) {
@@ -34,7 +35,7 @@ INLINE void film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
   if (!(isfinite(hi[0]) && isfinite(hi[1]) && isfinite(hi[2]))) {
     atomic_inc(&counters->saturated);
     ++pixel->left_out;
-    return;
+    return false;
   }
   for (int c = 0; c < 3; ++c) {
     pixel->sum[c] = hi[c];
@@ -47,4 +48,23 @@ INLINE void film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
     pixel->spread = fmin(pixel->spread + deviation * deviation * (estimates / (estimates + 1)), FLT_MAX);
   }
   if (isfinite(blur)) pixel->blur[pass & 1u] += (float)blur;
+  return true;
+}
+
+// The same for pixel number `index` of `pixels`, with its layers.
+INLINE void film_add_radiance(global FilmPixel *film, uint index, uint pixels, const Radiance *radiance, real blur,
+                              uint pass, volatile global Counters *counters) {
+  bool added = film_add(film + index, radiance->sum, blur, pass, counters);
+  if (!HAS(OUTPUT_LAYERS)) return;
+  if (!added) return;
+  global FilmLayers *layers = (global FilmLayers *)(film + pixels) + index;
+  for (uint i = 0; i < LAYER_COUNT; ++i) {
+    float value[3] = {(float)radiance->layer[i].x, (float)radiance->layer[i].y, (float)radiance->layer[i].z};
+    for (int c = 0; c < 3; ++c) {
+      float hi = layers->sum[i][c], lo = layers->low[i][c];
+      sum_add(&hi, &lo, value[c]);
+      layers->sum[i][c] = hi;
+      layers->low[i][c] = lo;
+    }
+  }
 }

@@ -1,5 +1,6 @@
 // Finding the photons around a point: exact integer sums, eight photons at a time.
 #include "grid.cl"
+#include "layers.cl"
 #include "medium.cl"
 
 // Photons whose surface leans away by more than this cosine lie on another wall.
@@ -8,12 +9,18 @@
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
   ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2
+  ulong direct_red, direct_green, direct_blue;     // with OUTPUT_LAYERS, of those that came straight from a light
+  ulong caustic_red, caustic_green, caustic_blue;  // and by specular surfaces alone
   uint count;
 } Gathered;
+
+// LAYER_* of a photon's word of blue flux.
+INLINE uint photon_layer(uint flux_b) { return flux_b >> PHOTON_LAYER_SHIFT; }
 
 // The same by lanes of eight photons, which the ranges of a search share.
 typedef struct {
   uint8 red, green, blue, near_red, near_green, near_blue;
+  uint8 direct_red, direct_green, direct_blue, caustic_red, caustic_green, caustic_blue;
   int8 count;  // negative: a comparison's true is -1
   uint steps;  // of eight photons since the lanes were empty
 } GatherLanes;
@@ -22,7 +29,8 @@ typedef struct {
 #define GATHER_STEPS 65536u
 
 INLINE GatherLanes gather_lanes_empty(void) {
-  GatherLanes lanes = {(uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (int8)(0), 0};
+  GatherLanes lanes = {(uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0),
+                       (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (int8)(0),  0};
   return lanes;
 }
 
@@ -40,6 +48,14 @@ INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
   sum->near_red += sum_of_lanes(lanes.near_red);
   sum->near_green += sum_of_lanes(lanes.near_green);
   sum->near_blue += sum_of_lanes(lanes.near_blue);
+  if (HAS(OUTPUT_LAYERS)) {
+    sum->direct_red += sum_of_lanes(lanes.direct_red);
+    sum->direct_green += sum_of_lanes(lanes.direct_green);
+    sum->direct_blue += sum_of_lanes(lanes.direct_blue);
+    sum->caustic_red += sum_of_lanes(lanes.caustic_red);
+    sum->caustic_green += sum_of_lanes(lanes.caustic_green);
+    sum->caustic_blue += sum_of_lanes(lanes.caustic_blue);
+  }
   sum->count += (uint)sum_of_lanes(as_uint8(-lanes.count));
 }
 
@@ -74,6 +90,17 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
+      if (HAS(OUTPUT_LAYERS)) {
+        uint8 layer = b >> PHOTON_LAYER_SHIFT;
+        b &= 0xffffu;
+        uint8 direct = as_uint8(layer == LAYER_DIRECT), caustic = as_uint8(layer == LAYER_CAUSTIC);
+        lanes->direct_red += r & direct;
+        lanes->direct_green += g & direct;
+        lanes->direct_blue += b & direct;
+        lanes->caustic_red += r & caustic;
+        lanes->caustic_green += g & caustic;
+        lanes->caustic_blue += b & caustic;
+      }
       lanes->red += r;
       lanes->green += g;
       lanes->blue += b;
@@ -103,11 +130,22 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
     ulong parts = (ulong)(fmin(share, (real)1) * PHASE_UNIT + (real)0.5);
     uint red_green = photons->flux_rg[lane];
     ulong red = parts * (red_green & 0xffffu), green = parts * (red_green >> 16);
-    ulong blue = parts * photons->flux_b[lane];
+    uint b = photons->flux_b[lane];
+    ulong blue = parts * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);
     sum->red += red;
     sum->green += green;
     sum->blue += blue;
     ++sum->count;
+    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_DIRECT) {
+      sum->direct_red += red;
+      sum->direct_green += green;
+      sum->direct_blue += blue;
+    }
+    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_CAUSTIC) {
+      sum->caustic_red += red;
+      sum->caustic_green += green;
+      sum->caustic_blue += blue;
+    }
     if (!(dot(d, d) <= radius2 / 4)) continue;
     sum->near_red += red;
     sum->near_green += green;
@@ -136,7 +174,7 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
 // sqrt(radius2) of `point`, once: a window of at most n cubes along an axis of n buckets has no two in one bucket.
 OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
                                 float3 normal, real radius2, bool in_medium, real3 direction, real g) {
-  Gathered sum = {0, 0, 0, 0, 0, 0, 0};
+  Gathered sum = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   GatherLanes lanes = gather_lanes_empty();
   real radius = sqrt(radius2);
   uint i0, j0, k0;

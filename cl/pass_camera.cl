@@ -3,6 +3,7 @@
 #include "camera.cl"
 #include "direct.cl"
 #include "grid.cl"
+#include "layers.cl"
 #include "work_group.cl"
 
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
@@ -21,7 +22,9 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   Ray ray = camera_ray(&params->camera, params->width, params->height, position, film.zw);
 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
-  real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
+  real3 throughput = (real3)(1, 1, 1);
+  Radiance radiance = radiance_none();
+  uint history = HISTORY_NO_RECEIVER;
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
@@ -36,17 +39,20 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
         if (depth == params->max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
+        point.normal = direction_pack(-ray.direction) | receiver_mark(history);
+        history = history_after(history, false);
         if (shadow_rays)
-          radiance += direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
-                                          random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
-        point.normal = direction_pack(-ray.direction);
+          radiance_add(&radiance, history,
+                       direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
+                                           random_at(stream, depth, DIM_LIGHT), false, &rays, counters));
         vstore3(position, 0, point.position);
         vstore3(throughput, 0, point.weight);
         break;
       }
     }
     if (!met) {
-      if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
+      if (HAS(EFFECT_ENVIRONMENT))
+        radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
     Surface surface;
@@ -59,7 +65,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-    radiance += throughput * emission;
+    radiance_add(&radiance, history, throughput * emission);
     if (depth == params->max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
@@ -73,22 +79,27 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
-      if (shadow_rays)
-        radiance += direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
-                                 random_at(stream, depth, DIM_LIGHT), false, &rays, counters);
       bool front = dot(surface.geometric_normal, ray.direction) < 0;
-      point.normal = normal_pack(front ? surface.geometric_normal : -surface.geometric_normal);
+      point.normal =
+          normal_pack(front ? surface.geometric_normal : -surface.geometric_normal) | receiver_mark(history);
+      history = history_after(history, false);
+      if (shadow_rays)
+        radiance_add(&radiance, history,
+                     direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
+                                  random_at(stream, depth, DIM_LIGHT), false, &rays, counters));
       vstore3(surface.position, 0, point.position);
       vstore3(weight, 0, point.weight);
       break;
     }
 
+    history = history_after(history, bsdf_is_specular(&bsdf));
     bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
     bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf);
     if (weigh_lights) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
-                                     random_at(stream, depth, DIM_LIGHT), &rays, counters);
+      radiance_add(&radiance, history,
+                   direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
+                                      random_at(stream, depth, DIM_LIGHT), &rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     bsdf_pdf = weigh_lights ? next.pdf : 0;
@@ -98,8 +109,13 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }
-  vstore3(radiance, 0, point.radiance);
+  vstore3(radiance.sum, 0, point.radiance);
   visible_points[index] = point;
+  if (HAS(OUTPUT_LAYERS)) {
+    uint count = params->pixel_count * params->visible_points;
+    global VisibleLayers *layers = (global VisibleLayers *)(visible_points + count) + index;
+    for (uint i = 0; i < LAYER_COUNT; ++i) vstore3(radiance.layer[i], 0, layers->radiance[i]);
+  }
   return rays;
 }
 

@@ -21,6 +21,18 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
     photon_counts[i] = gather(grid, starts, sorted, position, normal_unpack(point.normal), params.radius2).count;
 }
 
+// Adds to each layer what the photons of it bring by `weight`; beyond the receiver all is indirect.
+INLINE void layers_gathered(Radiance *radiance, const Gathered *sum, real3 weight, bool beyond) {
+  real3 direct = weight * (real3)(sum->direct_red, sum->direct_green, sum->direct_blue);
+  real3 caustic = weight * (real3)(sum->caustic_red, sum->caustic_green, sum->caustic_blue);
+  real3 indirect = weight * (real3)(sum->red - sum->direct_red - sum->caustic_red,
+                                    sum->green - sum->direct_green - sum->caustic_green,
+                                    sum->blue - sum->direct_blue - sum->caustic_blue);
+  radiance->layer[beyond ? LAYER_INDIRECT : LAYER_DIRECT] += direct;
+  radiance->layer[beyond ? LAYER_INDIRECT : LAYER_CAUSTIC] += caustic;
+  radiance->layer[LAYER_INDIRECT] += indirect;
+}
+
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
 // the film, with how much less half the radius around each point says; equations (8) and (9) update its radius. With
 // params.radius2 > 0 that radius holds for all pixels.
@@ -32,12 +44,20 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   uint index = params.first_pixel + i;
   SppmPixel pixel = pixels[index];
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
-  real3 radiance = (real3)(0, 0, 0), reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
+  real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   real3 scattered = (real3)(0, 0, 0), scattered_near = (real3)(0, 0, 0);
+  Radiance radiance = radiance_none();
+  real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   uint found = 0;
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
-    radiance += vload3(0, point.radiance);
+    radiance.sum += vload3(0, point.radiance);
+    if (HAS(OUTPUT_LAYERS)) {
+      uint count = params.pixel_count * params.visible_points;
+      global const VisibleLayers *layers = (global const VisibleLayers *)(visible_points + count);
+      for (uint k = 0; k < LAYER_COUNT; ++k)
+        radiance.layer[k] += vload3(0, layers[i * params.visible_points + s].radiance[k]);
+    }
     real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
     if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM)) {
@@ -49,22 +69,28 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
       scattered += weight * (real3)(sum.red, sum.green, sum.blue);
       scattered_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
       found = add_sat(found, sum.count);
+      if (HAS(OUTPUT_LAYERS)) layers_gathered(&radiance, &sum, weight, point.normal & BEYOND_RECEIVER);
       continue;
     }
     Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);
     reflected_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
     found = add_sat(found, sum.count);
+    if (HAS(OUTPUT_LAYERS) && sum.count > 0)
+      layers_gathered(&radiance, &sum, weight * density, point.normal & BEYOND_RECEIVER);
   }
-  real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
-  if (found > 0) radiance += reflected * density;
+  if (found > 0) radiance.sum += reflected * density;
   if (HAS(EFFECT_MEDIUM)) {
     // A sphere of half the radius has an eighth of the volume; its bias is a quarter of the whole's, as that of discs.
-    radiance += scattered;
+    radiance.sum += scattered;
     blur += (scattered - 8 * scattered_near) / params.visible_points;
   }
-  film_add(film + index, radiance / params.visible_points, luminance(blur.x, blur.y, blur.z), params.pass, counters);
+  radiance.sum /= params.visible_points;
+  if (HAS(OUTPUT_LAYERS))
+    for (uint k = 0; k < LAYER_COUNT; ++k) radiance.layer[k] /= params.visible_points;
+  film_add_radiance(film, index, params.width * params.height, &radiance, luminance(blur.x, blur.y, blur.z),
+                    params.pass, counters);
   if (params.radius2 > 0) return;
   pixels[index] = sppm_update(pixel, found, params.alpha);
 }

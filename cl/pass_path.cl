@@ -5,9 +5,11 @@
 #include "work_group.cl"
 
 // Radiance along one camera path. Paths scatter at most params.max_depth times.
-OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, uint *rays,
-                            volatile global Counters *counters) {
-  real3 throughput = (real3)(1, 1, 1), radiance = (real3)(0, 0, 0);
+OUTLINE void path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, Radiance *result,
+                           uint *rays, volatile global Counters *counters) {
+  real3 throughput = (real3)(1, 1, 1);
+  Radiance radiance = radiance_none();
+  uint history = HISTORY_NO_RECEIVER;
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
   Interior interior = interior_none();
   for (uint depth = 0; depth <= max_depth; ++depth) {
@@ -21,9 +23,11 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
         if (depth == max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
         throughput *= scene->medium.scattering;
+        history = history_after(history, false);
         if (scene->emitter_count > 0)
-          radiance += direct_light_medium(scene, position, ray.direction, throughput,
-                                          random_at(stream, depth, DIM_LIGHT), true, rays, counters);
+          radiance_add(&radiance, history,
+                       direct_light_medium(scene, position, ray.direction, throughput,
+                                           random_at(stream, depth, DIM_LIGHT), true, rays, counters));
         real4 random = random_at(stream, depth, DIM_BSDF);
         if (!path_survives(&throughput, depth, random.w)) break;
         real3 direction = phase_sample(scene->medium.g, ray.direction, random.xy);
@@ -34,7 +38,8 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
       }
     }
     if (!met) {
-      if (HAS(EFFECT_ENVIRONMENT)) radiance += throughput * escaped_radiance(scene, ray.direction, bsdf_pdf);
+      if (HAS(EFFECT_ENVIRONMENT))
+        radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
     Surface surface;
@@ -49,7 +54,7 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
     if (max_component(emission) > 0) {
       real weight = 1;
       if (bsdf_pdf > 0) weight = emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-      radiance += throughput * emission * weight;
+      radiance_add(&radiance, history, throughput * emission * weight);
     }
     if (depth == max_depth) break;
 
@@ -60,16 +65,18 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
     real4 random = random_at(stream, depth, DIM_BSDF);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
+    history = history_after(history, bsdf_is_specular(&bsdf));
     if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light(scene, &bsdf, &surface, interior, ray.direction, n,
-                               throughput * bsdf.color * INV_PI, random_at(stream, depth, DIM_LIGHT), true,
-                               rays, counters);
+      radiance_add(&radiance, history,
+                   direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,
+                                random_at(stream, depth, DIM_LIGHT), true, rays, counters));
     }
     if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance += direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
-                                     random_at(stream, depth, DIM_LIGHT), rays, counters);
+      radiance_add(&radiance, history,
+                   direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
+                                      random_at(stream, depth, DIM_LIGHT), rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
@@ -79,7 +86,7 @@ OUTLINE real3 path_radiance(const Scene *scene, Ray ray, RandomStream stream, ui
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
     ray.direction = next.direction;
   }
-  return radiance;
+  *result = radiance;
 }
 
 // Adds sample number params.pass of a pixel to the film; *rays is the number of rays traced. Four consecutive samples
@@ -93,8 +100,9 @@ INLINE void sample_pixel(const Scene *scene, const Params *params, uint pixel, g
   real2 position =
       (real2)(pixel % params->width, pixel / params->width) + camera_stratum(stratum, 4u, numbers.xy);
   Ray ray = camera_ray(&params->camera, params->width, params->height, position, numbers.zw);
-  real3 radiance = path_radiance(scene, ray, stream, params->max_depth, rays, counters);
-  film_add(film + pixel, radiance, 0, params->pass, counters);
+  Radiance radiance;
+  path_radiance(scene, ray, stream, params->max_depth, &radiance, rays, counters);
+  film_add_radiance(film, pixel, params->width * params->height, &radiance, 0, params->pass, counters);
 }
 
 // One sample of each pixel of the chunk.

@@ -2,6 +2,7 @@
 // medium scatters them.
 #include "direct.cl"
 #include "grid.cl"
+#include "layers.cl"
 #include "work_group.cl"
 
 // Sets the random numbers of photons apart from those of camera paths.
@@ -29,7 +30,7 @@ typedef struct {
 } PhotonStore;
 
 // Adds a photon, whose `flux` is relative to Params.photon_flux; where the buffer is full it is only counted.
-INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 flux, real4 dither) {
+INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 flux, uint history, real4 dither) {
   bool saturated = false;
   uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
        b = flux_quantise(flux.z, dither.z, &saturated);
@@ -43,6 +44,7 @@ INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 
   photon.normal = normal;
   photon.flux_rg = r | g << 16;
   photon.flux_b = b;
+  if (HAS(OUTPUT_LAYERS)) photon.flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
   if (store->count < store->room) {
     store->staged[store->count++] = photon;
     return;
@@ -58,7 +60,7 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
   real3 flux;
   Ray ray = photon_emit(scene, stream, &flux);
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
-  uint rays = 0;
+  uint rays = 0, history = HISTORY_STRAIGHT;
   Interior interior = interior_none();
   for (uint depth = 0; depth < params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
@@ -72,7 +74,8 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
         flux *= scene->medium.scattering;
         real3 position = ray.origin + distance * ray.direction;
         if (!(shadow_rays && depth == 0))
-          photon_store(store, position, direction_pack(ray.direction), flux, random_at(stream, depth, DIM_QUANTISE));
+          photon_store(store, position, direction_pack(ray.direction), flux, history,
+                       random_at(stream, depth, DIM_QUANTISE));
         if (depth + 1 == params->max_depth) break;
         real4 random = random_at(stream, depth, DIM_BSDF);
         real survival = fmin(max_component(flux) / before, (real)1);
@@ -80,6 +83,7 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
         flux /= survival;
         ray.origin = position;
         ray.direction = phase_sample(scene->medium.g, ray.direction, random.xy);
+        history = history_after(history, false);
         continue;
       }
     }
@@ -112,13 +116,14 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
         if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
         bool front = dot(surface.geometric_normal, ray.direction) < 0;
         photon_store(store, surface.position,
-                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal), landed,
+                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal), landed, history,
                      random_at(stream, depth, DIM_QUANTISE));
       }
     }
     if (depth + 1 == params->max_depth) break;
 
     if (plastic) plastic_choose(&bsdf, ray.direction, n, random.z);
+    history = history_after(history, bsdf_is_specular(&bsdf));
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
     if (bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf)) {
       flux *= shading_normal_arrival(&surface, ray.direction);

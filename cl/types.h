@@ -238,6 +238,20 @@ typedef struct {
 } FilmPixel;
 CHECK_SIZE(FilmPixel, 40);
 
+// The layers of a picture, see layers.cl.
+#define LAYER_DIRECT 0u
+#define LAYER_CAUSTIC 1u
+#define LAYER_INDIRECT 2u
+#define LAYER_COUNT 3u
+
+// A pixel's sums of what belongs to each layer, as FilmPixel has them of the whole. With OUTPUT_LAYERS those of all
+// pixels follow the film in its buffer.
+typedef struct {
+  float sum[LAYER_COUNT][3];
+  float low[LAYER_COUNT][3];
+} FilmLayers;
+CHECK_SIZE(FilmLayers, 72);
+
 // How far a pixel's luminance may be off.
 typedef struct {
   float luminance;  // the mean of its estimates
@@ -248,6 +262,8 @@ CHECK_SIZE(PixelError, 12);
 
 // The mark of visible points and photons that lie in the medium: their `normal` holds a direction (direction_pack).
 #define IN_MEDIUM 0x80000000u
+// The mark of visible points whose path was scattered before by other than a perfectly specular lobe: their `normal`.
+#define BEYOND_RECEIVER 0x40000000u
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium,
@@ -260,6 +276,12 @@ typedef struct {
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;
 
+// What of VisiblePoint.radiance belongs to each layer. With OUTPUT_LAYERS those of all points of a launch follow the
+// points in their buffer.
+typedef struct {
+  real radiance[LAYER_COUNT][3];
+} VisibleLayers;
+
 // A photon that landed on a diffuse surface, or that the medium scatters, as traced. Flux is quantised with unbiased
 // dithering in units of Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
 // Sixteen bits hold 16 times the flux of an emitted photon, which is as far as the factors of shading normals go: up to
@@ -269,8 +291,10 @@ typedef struct {
   real position[3];
   uint normal;         // normal_pack, facing the side that the photon came from; in the medium, where it was going
   uint flux_rg;        // red in the low 16 bits, green in the high ones
-  uint flux_b;
+  uint flux_b;         // in the low 16 bits; from bit PHOTON_LAYER_SHIFT on, with OUTPUT_LAYERS, the photon's layer
 } Photon;
+
+#define PHOTON_LAYER_SHIFT 16u
 
 // Eight photons as the gather takes them, eight at a time. In the sorted map photon i is lane i % 8 of block i / 8.
 typedef struct {
@@ -282,10 +306,12 @@ typedef struct {
 
 #ifdef CAUSTICL_DOUBLE
 CHECK_SIZE(VisiblePoint, 80);
+CHECK_SIZE(VisibleLayers, 72);
 CHECK_SIZE(Photon, 40);
 CHECK_SIZE(PhotonBlock, 288);
 #else
 CHECK_SIZE(VisiblePoint, 40);
+CHECK_SIZE(VisibleLayers, 36);
 CHECK_SIZE(Photon, 24);
 CHECK_SIZE(PhotonBlock, 192);
 #endif

@@ -64,11 +64,11 @@ class Device {
     return result;
   }
 
-  /// The first `count` elements of a buffer. Waits for the queue.
+  /// The first `count` elements of a buffer, or those from `offset` bytes on. Waits for the queue.
   template <typename T>
-  std::vector<T> download(const cl::Buffer& from, std::size_t count) {
+  std::vector<T> download(const cl::Buffer& from, std::size_t count, std::size_t offset = 0) {
     std::vector<T> result(count);
-    if (count) queue_.enqueueReadBuffer(from, CL_TRUE, 0, count * sizeof(T), result.data());
+    if (count) queue_.enqueueReadBuffer(from, CL_TRUE, offset, count * sizeof(T), result.data());
     return result;
   }
 

@@ -1,7 +1,5 @@
 #include "error_watch.hpp"
 
-#include <algorithm>
-
 namespace causticl {
 namespace {
 
@@ -13,17 +11,17 @@ ErrorRates expected_rates(const RendererSpec& renderer) {
 
 }  // namespace
 
-ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confidence)
-    : film_(film), confidence_(confidence), trend_(expected_rates(renderer), confidence) {}
+ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confidence,
+                       std::optional<double> wanted)
+    : film_(film), confidence_(confidence), trend_(expected_rates(renderer), confidence), wanted_(wanted) {}
 
 void ErrorWatch::update(std::uint64_t passes) {
   if (passes < next_) return;
   next_ = passes + std::max<std::uint64_t>(1, passes / 5);
   trend_.add(passes, film_.errors(passes, sample_pixels));
-}
-
-double ErrorWatch::passes_until(double wanted, std::uint64_t passes) const {
-  return std::max(0.0, trend_.passes_until(wanted) - static_cast<double>(passes));
+  if (!last()) return;
+  until_half_ = trend_.passes_until(last()->error / 2);
+  if (wanted_) until_wanted_ = trend_.passes_until(*wanted_);
 }
 
 std::optional<PictureError> ErrorWatch::measure(std::uint64_t passes) const {

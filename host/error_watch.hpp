@@ -1,6 +1,7 @@
 // The error of a picture as it goes down, while passes go on.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "error_estimate.hpp"
@@ -11,7 +12,8 @@ namespace causticl {
 
 class ErrorWatch {
  public:
-  ErrorWatch(Film& film, const RendererSpec& renderer, double confidence);
+  /// `wanted` is the error that passes_to_wanted() is asked for; none: it is not.
+  ErrorWatch(Film& film, const RendererSpec& renderer, double confidence, std::optional<double> wanted);
 
   /// To be told of every pass. Looks at the film four times from one power of two to the next: often enough
   /// to see when the error is small enough, seldom enough to cost next to nothing, and by the number of
@@ -21,8 +23,10 @@ class ErrorWatch {
   /// The error of the picture at the last look; none before the second pass, and none of a black picture.
   const std::optional<PictureError>& last() const { return trend_.last(); }
 
-  /// Further passes until the error is this; needs last().
-  double passes_until(double wanted, std::uint64_t passes) const;
+  /// Further passes after `passes` until the error is half that of the last look, and until it is the wanted
+  /// one; need last().
+  double passes_to_half(std::uint64_t passes) const { return further(until_half_, passes); }
+  double passes_to_wanted(std::uint64_t passes) const { return further(until_wanted_, passes); }
 
   /// The error now.
   std::optional<PictureError> measure(std::uint64_t passes) const;
@@ -31,7 +35,13 @@ class ErrorWatch {
   Film& film_;
   double confidence_;
   ErrorTrend trend_;
+  std::optional<double> wanted_;
   std::uint64_t next_ = 2;
+  double until_half_ = 0, until_wanted_ = 0;  // passes from the first, as the last look has it
+
+  static double further(double until, std::uint64_t passes) {
+    return std::max(0.0, until - static_cast<double>(passes));
+  }
 };
 
 }  // namespace causticl

@@ -3,28 +3,61 @@
 #include <algorithm>
 #include <numeric>
 
+#include "effects.h"
+
 namespace causticl {
+namespace {
+
+/// 1 / the number of estimates that the pixel's mean is over.
+double scale_of(const FilmPixel& pixel, std::uint64_t passes) {
+  return 1.0 / static_cast<double>(std::max<std::uint64_t>(passes, pixel.left_out + 1ull) - pixel.left_out);
+}
+
+float mean_of(float sum, float low, double scale) {
+  return static_cast<float>(scale * (static_cast<double>(sum) + low));
+}
+
+}  // namespace
 
 Film::Film(Device& device, Programs& programs, int width, int height)
     : device_(device),
       width_(width),
       height_(height),
       programs_(programs),
-      pixels_(device.buffer(pixels() * sizeof(FilmPixel), "film")) {
-  device_.clear(pixels_, pixels() * sizeof(FilmPixel));
+      pixels_(device.buffer(pixels() * bytes_per_pixel(), "film")) {
+  device_.clear(pixels_, pixels() * bytes_per_pixel());
 }
+
+bool Film::has_layers() const { return (programs_.options().effects & OUTPUT_LAYERS) != 0; }
 
 Picture Film::picture(std::uint64_t passes) {
   const auto sums = device_.download<FilmPixel>(pixels_, pixels());
   Picture picture{width_, height_, std::vector<float>(3 * pixels())};
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    const double scale = 1.0 / static_cast<double>(std::max<std::uint64_t>(passes, sums[i].left_out + 1ull) -
-                                                   sums[i].left_out);
-    for (int c = 0; c < 3; ++c)
-      picture.rgb[3 * i + c] =
-          static_cast<float>(scale * (static_cast<double>(sums[i].sum[c]) + sums[i].low[c]));
+    const double scale = scale_of(sums[i], passes);
+    for (int c = 0; c < 3; ++c) picture.rgb[3 * i + c] = mean_of(sums[i].sum[c], sums[i].low[c], scale);
   }
   return picture;
+}
+
+std::vector<Channel> layer_channels(std::size_t pixels) {
+  std::vector<Channel> channels;
+  for (const char* layer : {"direct", "caustic", "indirect"})  // LAYER_* of cl/types.h
+    for (const char* color : {".R", ".G", ".B"})
+      channels.push_back({std::string(layer) + color, std::vector<float>(pixels)});
+  return channels;
+}
+
+std::vector<Channel> Film::layers(std::uint64_t passes) {
+  const auto sums = device_.download<FilmPixel>(pixels_, pixels());
+  const auto layers = device_.download<FilmLayers>(pixels_, pixels(), pixels() * sizeof(FilmPixel));
+  auto channels = layer_channels(pixels());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double scale = scale_of(sums[i], passes);
+    for (std::size_t k = 0; k < channels.size(); ++k)
+      channels[k].values[i] = mean_of(layers[i].sum[k / 3][k % 3], layers[i].low[k / 3][k % 3], scale);
+  }
+  return channels;
 }
 
 std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {

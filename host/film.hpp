@@ -8,17 +8,24 @@
 
 namespace causticl {
 
+/// The channels of the layers of cl/layers.cl, all black.
+std::vector<Channel> layer_channels(std::size_t pixels);
+
 class Film {
  public:
-  /// All black.
+  /// All black. With layers where the programs were built for them.
   Film(Device& device, Programs& programs, int width, int height);
 
   const cl::Buffer& buffer() const { return pixels_; }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
-  static constexpr double bytes_per_pixel = sizeof(FilmPixel);
+  bool has_layers() const;
+  std::size_t bytes_per_pixel() const { return sizeof(FilmPixel) + (has_layers() ? sizeof(FilmLayers) : 0); }
 
   /// The mean of `passes` estimates a pixel, of those that were finite. Waits for the queue.
   Picture picture(std::uint64_t passes);
+
+  /// The same of each layer: direct.R, direct.G, direct.B, caustic.R ... indirect.B. Needs has_layers().
+  std::vector<Channel> layers(std::uint64_t passes);
 
   /// The errors of every pixel after `passes` passes, or of `most` pixels at most, spread over the picture.
   /// Waits for the queue.

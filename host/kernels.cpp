@@ -19,14 +19,15 @@ constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GL
                                      EFFECT_DISPERSION | EFFECT_MEDIUM;
 constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 
-/// The effects that the kernels of each pass ask for with HAS().
+/// What the kernels of each pass ask for with HAS().
 const std::map<std::string, unsigned> effects_read{
-    {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS},
-    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS},
+    {"camera",
+     geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS | OUTPUT_LAYERS},
+    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS | OUTPUT_LAYERS},
     {"grid", 0},
-    {"gather", EFFECT_MEDIUM},
+    {"gather", EFFECT_MEDIUM | OUTPUT_LAYERS},
     {"film", 0},
-    {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS},
+    {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS | OUTPUT_LAYERS},
 };
 
 void dump(const std::string& folder, const std::string& pass, const std::string& source) {

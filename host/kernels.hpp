@@ -21,7 +21,7 @@ constexpr std::size_t record_scale(Precision precision) { return precision == Pr
 
 /// Where kernel sources come from and where a copy of what was built goes.
 struct KernelOptions {
-  unsigned effects = 0;  // EFFECT_* bits of the scene
+  unsigned effects = 0;  // EFFECT_* bits of the scene, and OUTPUT_LAYERS where those are wanted
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
   std::string kernel_dir;    // read cl/ live from here; empty: the embedded sources

@@ -45,6 +45,10 @@ void add_output_options(CLI::App& app, Options& options, Texts& texts) {
                  "with .png in the working directory")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  app.add_flag("--layers", options.layers,
+               "add to .exr files what of the light is direct, caustic and\n"
+               "indirect, as layers that add up to the picture")
+      ->disable_flag_override();
   const auto count = whole_number(1, largest_int);
   app.add_option("--passes", options.passes, "sppm: passes, in place of the scene's own")
       ->check(count)

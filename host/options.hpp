@@ -28,6 +28,7 @@ struct Options {
   std::optional<double> time_limit;    // seconds
   std::optional<double> wanted_error;  // a share
   double confidence = 0.9;
+  bool layers = false;
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   std::string device;    // as find_device takes it

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "effects.h"
 #include "effects.hpp"
 #include "error.hpp"
 #include "error_watch.hpp"
@@ -119,6 +120,7 @@ RenderResult black_picture(const Scene& scene, const RenderOptions& options, con
   RenderResult result{{scene.width, scene.height, {}}, statistics};
   result.picture.rgb.assign(
       3 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
+  if (options.layers) result.picture.channels = layer_channels(result.picture.rgb.size() / 3);
   result.statistics.peak_memory_bytes = peak_memory();
   for (const auto& file : options.outputs)
     write_picture(file, result.picture, metadata_of(scene, options, statistics));
@@ -138,8 +140,9 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.precision = options.precision;
 
   const Effects effects = find_effects(scene);
-  const KernelOptions kernels{chosen_effects(effects, options.effects), options.precision,
-                              options.triangle_test, options.kernel_dir, options.dump_kernels};
+  const unsigned compiled = chosen_effects(effects, options.effects) | (options.layers ? OUTPUT_LAYERS : 0u);
+  const KernelOptions kernels{compiled, options.precision, options.triangle_test, options.kernel_dir,
+                              options.dump_kernels};
   auto plan = plan_passes(scene);
   if (!options.skip_passes)
     for (auto& pass : plan) pass.skipped.clear();
@@ -177,7 +180,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   double recent_pass = 0;  // the longer of the last two: the first compiles kernels
   double last_pass = 0;
   double longest_write = 0;
-  ErrorWatch watch(film, scene.renderer, options.confidence);
+  ErrorWatch watch(film, scene.renderer, options.confidence, options.wanted_error);
   statistics.confidence = options.confidence;
   const bool with_channels = std::any_of(options.outputs.begin(), options.outputs.end(), holds_channels);
   const auto write = [&](Picture picture) {
@@ -185,6 +188,8 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     if (with_channels) {
       picture.channels = integrator->channels();
       append_errors(picture.channels, film.errors(statistics.passes));
+      if (options.layers)
+        for (auto& channel : film.layers(statistics.passes)) picture.channels.push_back(std::move(channel));
     }
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
@@ -218,9 +223,9 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
       now.pass_seconds = statistics.pass_seconds;
       if (watch.last()) {
         now.error = watch.last()->error;
-        now.seconds_to_half = per_pass * watch.passes_until(*now.error / 2, pass + 1);
+        now.seconds_to_half = per_pass * watch.passes_to_half(pass + 1);
         if (options.wanted_error)
-          now.remaining = std::min(remaining, per_pass * watch.passes_until(*options.wanted_error, pass + 1));
+          now.remaining = std::min(remaining, per_pass * watch.passes_to_wanted(pass + 1));
       }
       progress(now);
     }
@@ -250,7 +255,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   }
 
   if (watch.last() && watch.last()->error > 0)
-    statistics.passes_to_half_error = watch.passes_until(watch.last()->error / 2, statistics.passes);
+    statistics.passes_to_half_error = watch.passes_to_half(statistics.passes);
   const double loop_seconds = std::max(seconds_since(loop_start) + integrator->early_seconds(), 1e-9);
   statistics.rays = totals.rays;
   statistics.stored_photons = totals.photons_stored_last_pass;
@@ -266,7 +271,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   statistics.emitters = device_scene.emitter_count;
   statistics.device_bytes = device.allocated_bytes();
   statistics.peak_memory_bytes = peak_memory();
-  statistics.bytes_per_pixel = Film::bytes_per_pixel + integrator->bytes_per_pixel();
+  statistics.bytes_per_pixel = static_cast<double>(film.bytes_per_pixel()) + integrator->bytes_per_pixel();
   statistics.pass_programs = pass_statistics(plan, programs.builds(), effects);
   statistics.kernels = kernel_times_since(kernels_before, device.kernel_times());
   for (auto& pass : statistics.pass_programs) {

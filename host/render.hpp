@@ -31,6 +31,7 @@ struct RenderOptions {
   std::optional<double> time_limit;    // seconds from the start of render_scene
   std::optional<double> wanted_error;  // stop at this estimated error of the picture
   double confidence = 0.9;             // share of pixels that the error of the picture is to hold for
+  bool layers = false;                 // also its layers direct, caustic and indirect, as channels
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;

@@ -1,8 +1,10 @@
 #include "render_setup.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
+#include "error.hpp"
 #include "image.hpp"
 #include "output_file.hpp"
 
@@ -35,6 +37,9 @@ std::vector<std::string> output_files(const Options& options, const Scene& scene
 
 void check_outputs(const Options& options, const std::vector<std::string>& outputs) {
   for (const auto& file : outputs) check_output(file);
+  if (options.layers && std::none_of(outputs.begin(), outputs.end(), holds_channels))
+    throw UserError("--layers: no output can hold them; expected one that ends in .exr, as in -o " +
+                    std::filesystem::path(outputs.front()).stem().string() + ".exr");
   if (!options.stats_json.empty()) check_writable(options.stats_json);
 }
 
@@ -53,6 +58,7 @@ RenderOptions render_options(const Options& options, const std::vector<std::stri
   result.time_limit = options.time_limit;
   result.wanted_error = options.wanted_error;
   result.confidence = options.confidence;
+  result.layers = options.layers;
   result.seed = options.seed;
   result.precision = options.precision;
   result.threads = options.threads;

@@ -20,7 +20,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       counters_(device.buffer(sizeof(Counters), "counters")),
       photon_map_(device_scene, device, programs, counters_),
       with_photons_(with_photons && params_.emitter_count > 0),
-      visible_point_bytes_(sizeof(VisiblePoint) * record_scale(programs.options().precision)),
+      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0)) *
+                           record_scale(programs.options().precision)),
       smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);

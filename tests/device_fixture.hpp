@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device.hpp"
+#include "effects.h"
 #include "kernel_sources.hpp"
 #include "types.h"
 
@@ -23,7 +24,7 @@ struct WorkGroupSize {
 
 /// Builds a test's own OpenCL text; its #include "name.cl" lines take the shipped kernel files. `effects` are
 /// the bits of effects.h that HAS() sees.
-cl::Program build_test_program(const std::string& text, unsigned effects = ~0u,
+cl::Program build_test_program(const std::string& text, unsigned effects = EFFECT_ALL,
                                const std::string& options = "");
 
 /// A generator with a fixed seed (CAUSTICL_TEST_SEED overrides it) that is printed when a check fails.

@@ -42,6 +42,28 @@ TEST_CASE("several outputs hold one picture") {
   CHECK(*std::max_element(pfm.rgb.begin(), pfm.rgb.end()) > 0);
 }
 
+TEST_CASE("--layers adds three layers to EXR files and wants one") {
+  const TemporaryFolder folder;
+  for (const char* integrator : {"sppm", "pt"}) {
+    const auto render = [&](const std::string& name, const Words& more) {
+      const Words limit = integrator == std::string("pt") ? Words{"--samples", "2"} : Words{"--passes", "2"};
+      const Words words = limit + Words{"--integrator", integrator, "-o", name} + more;
+      check_success(run_causticl(small_render(words), folder.path("")));
+      return bytes_of(folder.path(name));
+    };
+    const std::string with = render("a.exr", {"--layers", "-o", "a.png"}), without = render("b.exr", {});
+    for (const std::string layer : {"direct", "caustic", "indirect"})
+      for (const std::string color : {".R", ".G", ".B"}) {
+        CHECK_THAT(with, Contains(layer + color));
+        CHECK_THAT(without, !Contains(layer + color));
+      }
+    CHECK(read_picture(folder.path("a.exr")).rgb == read_picture(folder.path("b.exr")).rgb);
+  }
+  check_one_error(run_causticl(small_render({"--layers", "-o", "box.png"}), folder.path("")), 2,
+                  "--layers: no output can hold them; expected one that ends in .exr, as in -o box.exr");
+  CHECK_FALSE(fs::exists(folder.path("box.png")));
+}
+
 TEST_CASE("the same seed gives the same bytes and another seed other ones") {
   const TemporaryFolder folder;
   for (const char* integrator : {"sppm", "pt"}) {
