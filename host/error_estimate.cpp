@@ -111,11 +111,9 @@ double ErrorTrend::passes_until(double wanted) const {
   const auto errors = relative_errors(pixels_);
   const double rate = noise_rate();
   const auto reached = [&](double times) {
+    const double noise = std::pow(times, -rate), bias = std::pow(times, -expected_.bias);
     auto then = errors;
-    for (auto& error : then) {
-      error.noise *= std::pow(times, -rate);
-      error.bias *= std::pow(times, -expected_.bias);
-    }
+    for (auto& error : then) error = {error.noise * noise, error.bias * bias};
     return share_below(then, wanted) >= confidence_;
   };
   double low = 1, high = 1;

@@ -34,8 +34,9 @@ struct ErrorRates {
 
 /// Those that theory expects of SPPM (Knaus & Zwicker 2011, section 4): the radius takes from the photons
 /// what more passes bring, R^2 ~ passes^(alpha - 1) and noise ~ passes^-(alpha / 2). The bias goes with R^2
-/// where illumination is smooth and with R along edges: the geometric mean of both.
-constexpr ErrorRates sppm_rates(double alpha) { return {alpha / 2, 0.7 * (1 - alpha)}; }
+/// where illumination is smooth, but with R along edges, where most of it lies: see BIAS_OF_BLUR of
+/// cl/pass_film.cl.
+constexpr ErrorRates sppm_rates(double alpha) { return {alpha / 2, (1 - alpha) / 2}; }
 constexpr ErrorRates path_tracing_rates{};
 
 /// How the error of a picture has gone down so far, and where that leads.
