@@ -1,0 +1,112 @@
+"""Renders what scripts/calibration.sh describes and prints its table: calibration.py CAUSTICL FOLDER SCENE..."""
+import datetime
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+BUDGETS, SEEDS = (8, 32, 128), range(1, 9)
+LONG, LONG_SEEDS = 512, (1, 2)
+SETTINGS = ['--quiet', '--size', '48x36']
+PHOTONS = 10000
+WORST_REFERENCE = 0.1  # error of a path-traced reference, by its own estimate
+
+causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+
+
+def run(*arguments):
+    subprocess.run([causticl, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
+
+
+def render(scene, picture, *options):
+    """Renders unless that was done before; returns the statistics."""
+    stats = picture.with_suffix('.stats')
+    if not stats.exists():
+        unfinished = stats.with_suffix('.part')
+        run('render', scene, *SETTINGS, *options, '-o', picture, '--stats-json', unfinished)
+        unfinished.rename(stats)
+    return json.loads(stats.read_text())
+
+
+def has_hidden_caustics(scene):
+    """Whether path tracing may miss light: see README, Limits."""
+    file = folder / 'explained.json'
+    run('explain', scene, '--json', file)
+    called = {e['key'] for e in json.loads(file.read_text())['effects'] if e['called_for']}
+    return 'delta_lights' in called and bool(called & {'mirror', 'glass', 'conductor', 'plastic'})
+
+
+def reference_of(scene, first_radius):
+    """The picture that is as good as the truth, and its statistics."""
+    name = scene.stem
+    if not has_hidden_caustics(scene):
+        picture = folder / f'{name}-pt.exr'
+        stats = render(scene, picture, '--integrator', 'pt', '--samples', 4096, '--seed', 100)
+        if stats['error'] <= WORST_REFERENCE:
+            return picture, stats
+    picture = folder / f'{name}-sppm.exr'
+    return picture, render(scene, picture, '--integrator', 'sppm', '--photons', 50000, '--passes', 1280, '--seed', 100,
+                           '-D', f'renderer.radius={first_radius / 5:.6g}', '-D', 'renderer.alpha=0.99',
+                           '-D', 'renderer.schedule=global')
+
+
+def points(scene, passes, seeds):
+    for seed in seeds:
+        picture = folder / f'{scene.stem}-{passes}-{seed}.exr'
+        yield picture, render(scene, picture, '--integrator', 'sppm', '--photons', PHOTONS, '--passes', passes, '--seed', seed)
+
+
+def measure(scene):
+    """One row of the table."""
+    _, first = next(points(scene, BUDGETS[0], SEEDS))
+    reference, reference_stats = reference_of(scene, first['first_radius'])
+    noise = reference_stats['error']
+    covered, truth, estimate, half = {}, {}, {}, {}
+    for passes in (*BUDGETS, LONG):
+        pictures = list(points(scene, passes, SEEDS if passes < LONG else LONG_SEEDS))
+        compared = []
+        for picture, _ in pictures:
+            run('compare', picture, reference, '--json', folder / 'compared.json')
+            compared.append(json.loads((folder / 'compared.json').read_text()))
+        covered[passes] = statistics.mean(c['covered_90'] for c in compared)
+        # Independent errors add up as squares.
+        squares = statistics.mean(c['error_90'] for c in compared) ** 2 - noise ** 2
+        truth[passes] = math.sqrt(squares) if squares > 0 else 0
+        estimate[passes] = statistics.mean(s['error'] for _, s in pictures)
+        half[passes] = passes + statistics.median(s['passes_to_half_error'] for _, s in pictures)
+
+    def passes_at(error):
+        """Where the true error is this, by lines between its logarithms; none after the last one."""
+        for low, high in zip((*BUDGETS, LONG), (*BUDGETS[1:], LONG)):
+            if truth[high] <= error <= truth[low] and truth[high] < truth[low] and truth[high] > 0:
+                return low * (high / low) ** (math.log(truth[low] / error) / math.log(truth[low] / truth[high]))
+        return None
+
+    def halved(passes):
+        at = passes_at(truth[passes] / 2)
+        return f'{half[passes] / at:.2f}' if at else '–'
+
+    row = lambda values, form: ', '.join(form.format(100 * values[n]) for n in BUDGETS)
+    inside = all(0.85 <= covered[n] <= 0.97 for n in BUDGETS)
+    kind = 'path tracing' if reference.stem.endswith('-pt') else 'SPPM'
+    print(f"| `{scene.stem}` | {row(covered, '{:.1f}')}{'' if inside else ' *'} | {row(truth, '{:.3g}')} | "
+          f"{row(estimate, '{:.3g}')} | {', '.join(halved(n) for n in BUDGETS)} | {kind}, {100 * noise:.2g} |", flush=True)
+    return inside
+
+
+def main():
+    scenes = [pathlib.Path(scene) for scene in sys.argv[3:]]
+    devices = subprocess.run([causticl, 'devices'], check=True, capture_output=True, text=True).stdout
+    print(f"`scripts/calibration.sh` on {datetime.date.today()}, {os.cpu_count()} cores, {devices.splitlines()[0].strip()}; "
+          f"48 × 36 pixels, {PHOTONS:,} photons a pass:\n")
+    print('| scene | % of pixels within their 90% bound after 8, 32, 128 passes | true error, % | estimated error, % '
+          '| predicted / true passes to half of it | truth, and its error, % |\n|---|---|---|---|---|---|')
+    inside = [measure(scene) for scene in scenes]
+    print(f'\n{sum(inside)} of {len(scenes)} scenes lie between 85 and 97% throughout.')
+
+
+if __name__ == '__main__':
+    main()
