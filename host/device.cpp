@@ -33,6 +33,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   info.platform = platform;
   info.device = device;
   info.platform_name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+  info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
   info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
   info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
   info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
@@ -92,10 +93,11 @@ DeviceInfo find_device(const std::string& spec) {
                   " found; expected an index, cpu, gpu or part of a name (see `causticl devices`)");
 }
 
-Device::Device(const DeviceInfo& info, unsigned threads)
+Device::Device(const DeviceInfo& info, unsigned threads, KernelCache* cache)
     : info_(info),
       device_(info.device),
-      is_pocl_(info.platform_name.find("Portable Computing Language") != std::string::npos) {
+      is_pocl_(info.platform_name.find("Portable Computing Language") != std::string::npos),
+      cache_(cache) {
   try {
     if (threads > 0 && threads < info.compute_units && info.type == "cpu") {
       const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
@@ -115,13 +117,19 @@ Device::Device(const DeviceInfo& info, unsigned threads)
 
 cl::Program Device::build(const std::string& source, const std::string& options) {
   const auto start = std::chrono::steady_clock::now();
-  cl::Program program(context_, source);
+  const ProgramText text{
+      info_.platform_name + ", " + info_.platform_version + ", " + info_.name + ", " + info_.driver,
+      "-cl-std=CL1.2 " + options, source};
+  cl::Program program;
   try {
-    program.build(std::vector<cl::Device>{device_}, ("-cl-std=CL1.2 " + options).c_str());
-  } catch (const cl::Error& error) {
+    program = cache_ ? cache_->build(context_, device_, text,
+                                     is_pocl_ ? KernelForm::pocl_files : KernelForm::binary)
+                     : build_from_source(context_, device_, text);
+  } catch (const cl::BuildError& error) {
+    std::string log;
+    for (const auto& [device, its] : error.getBuildLog()) log += its;
     throw DeviceError("device " + info_.name + " cannot build a kernel program (error " +
-                      std::to_string(error.err()) + "):\n" +
-                      program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_));
+                      std::to_string(error.err()) + "):\n" + log);
   }
   build_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return program;

@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "kernel_cache.hpp"
+
 namespace causticl {
 
 /// A device as `causticl devices` lists it; the position in list_devices() is its index.
 struct DeviceInfo {
   cl::Platform platform;
   cl::Device device;
-  std::string platform_name, name, vendor, driver, opencl_version, type;
+  std::string platform_name, platform_version, name, vendor, driver, opencl_version, type;
   unsigned compute_units = 0;
   std::uint64_t global_memory = 0, largest_allocation = 0;
   std::size_t largest_work_group = 0;
@@ -38,8 +40,9 @@ struct KernelTime {
 /// A chosen device with its context and one in-order queue. Counts the memory it gives out.
 class Device {
  public:
-  /// `threads` > 0 limits a CPU device to that many of its compute units (by a sub-device).
-  explicit Device(const DeviceInfo& info, unsigned threads = 0);
+  /// `threads` > 0 limits a CPU device to that many of its compute units (by a sub-device). Programs are
+  /// built through `cache`, where one is given, which must outlive the device.
+  explicit Device(const DeviceInfo& info, unsigned threads = 0, KernelCache* cache = nullptr);
 
   const DeviceInfo& info() const { return info_; }
   const cl::Context& context() const { return context_; }
@@ -51,6 +54,11 @@ class Device {
 
   /// Compiles OpenCL C. Throws DeviceError with the compiler's log.
   cl::Program build(const std::string& source, const std::string& options = "");
+
+  /// Lets the cache store what the driver has compiled up to now.
+  void store_compiled() {
+    if (cache_) cache_->store_compiled();
+  }
 
   /// A buffer of `bytes` (at least 16, since OpenCL has no empty buffers), not initialised. Throws
   /// DeviceError that says what was asked for and what the device has.
@@ -88,6 +96,9 @@ class Device {
   /// Waits for the queue, then returns what has been launched so far.
   const std::map<std::string, KernelTime>& kernel_times();
 
+  /// Programs that were built of what the cache held.
+  std::size_t kept_programs() const { return cache_ ? cache_->reused() : 0; }
+
   double build_seconds() const { return build_seconds_; }
   std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
@@ -103,6 +114,7 @@ class Device {
   cl::CommandQueue queue_;
   std::size_t local_size_ = 64;
   bool is_pocl_ = false;
+  KernelCache* cache_ = nullptr;
   std::atomic<double> build_seconds_{0};
   std::uint64_t allocated_bytes_ = 0;
   std::vector<std::pair<std::string, cl::Event>> pending_;

@@ -25,6 +25,15 @@ std::string size_text(const Picture& picture) {
   return std::to_string(picture.width) + "x" + std::to_string(picture.height) + " pixels";
 }
 
+/// What a command's kernels are built through, and `say` of what the user should know of it.
+template <typename Say>
+void report_notices(KernelCache& kernels, const Say& say) {
+  for (const auto& notice : kernels.take_notices()) say(notice);
+}
+
+/// A line of a command that shows no progress.
+void note(const std::string& text) { std::fprintf(stderr, "causticl: note: %s\n", text.c_str()); }
+
 int render(const Options& options) {
   Scene scene = load_scene(options.scene, options.scene_options);
   apply_options(options, scene);
@@ -33,15 +42,18 @@ int render(const Options& options) {
 
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
+  KernelCache kernels(options.keep_kernels);
+  report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   const DeviceInfo device_info = find_device(options.device);
   progress.note(threads_notice(options, device_info));
-  Device device(device_info, options.threads);
+  Device device(device_info, options.threads, &kernels);
 
   interruption_listen(options.quiet);
   const RenderResult result = render_scene(
       scene, device, render_options(options, outputs), [&](const Progress& now) { progress.update(now); },
       [&](const std::string& text) { progress.note(text); }, interruption_requested);
 
+  report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   progress.finish(outputs, result.statistics);
   if (options.stats) std::fputs(statistics_table(result.statistics).c_str(), stdout);
   if (!options.stats_json.empty()) write_file(options.stats_json, statistics_json(result.statistics));
@@ -53,10 +65,12 @@ int explain(const Options& options) {
   const Scene scene = load_scene(options.scene, options.scene_options);
   Explanation explanation = explain(scene);
   if (options.measure) {
-    Device device(find_device(options.device), options.threads);
+    KernelCache kernels(options.keep_kernels);
+    Device device(find_device(options.device), options.threads, &kernels);
     measure_effects(explanation, scene, device, render_options(options, {}), [](const std::string& effect) {
       std::fprintf(stderr, "causticl: measuring %s\n", effect.c_str());
     });
+    report_notices(kernels, note);
   }
   std::fputs(explanation_table(explanation).c_str(), stdout);
   if (!options.json.empty()) write_file(options.json, explanation_json(explanation));
@@ -67,15 +81,17 @@ int selftest(const Options& options) {
   if (!options.json.empty()) check_writable(options.json);
   const auto checks = wanted_checks(stability_checks(), options.selftest);
   const auto start = std::chrono::steady_clock::now();
-  SelftestProcesses processes(checks, options.selftest, options.device);
+  SelftestProcesses processes(checks, options.selftest, options.device, options.keep_kernels);
+  KernelCache kernels(options.keep_kernels);
   const DeviceInfo device_info = find_device(options.device);
-  Device device(device_info, options.threads);
+  Device device(device_info, options.threads, &kernels);
   std::fputs(selftest_heading(device_info, options.selftest).c_str(), stdout);
   const auto rows = processes.run(device, [](const SelftestRow& row) {
     std::fputs(selftest_line(row).c_str(), stdout);
     std::fflush(stdout);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_notices(kernels, note);
   std::fputs(selftest_verdict(rows, options.selftest, seconds).c_str(), stdout);
   if (!options.json.empty())
     write_file(options.json, selftest_json(device_info, rows, options.selftest, seconds));
@@ -102,7 +118,9 @@ int study(const Options& options) {
   const auto say = [&](const std::string& line) {
     if (!options.quiet) std::fprintf(stderr, "causticl: %s\n", line.c_str());
   };
-  const StudyOutcome outcome = run_study(options, say, interruption_requested);
+  KernelCache kernels(options.keep_kernels);
+  const StudyOutcome outcome = run_study(options, kernels, say, interruption_requested);
+  report_notices(kernels, say);
   std::fputs(outcome.summary.c_str(), stdout);
   return outcome.interrupted ? interrupted : done;
 }

@@ -108,6 +108,11 @@ void add_device_options(CLI::App& app, Options& options) {
   app.add_option("--kernel-dir", options.kernel_dir, "read the kernels from here, not from the binary")
       ->check(expect("an existing folder", is_folder))
       ->type_name("DIR");
+  app.add_flag("!--no-cache", options.keep_kernels,
+               "compile all kernels anew and keep none; else what was\n"
+               "compiled is kept in $CAUSTICL_CACHE_DIR, by default\n"
+               "~/.cache/causticl, for the next run")
+      ->disable_flag_override();
 }
 
 /// What it reports.

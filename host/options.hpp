@@ -36,6 +36,7 @@ struct Options {
   TriangleTest triangle_test = TriangleTest::watertight;
   std::string effects = "auto";  // render: what the kernels are compiled for
   std::string kernel_dir, dump_kernels;
+  bool keep_kernels = true;  // from one run to the next
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none
 

@@ -151,6 +151,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     return black_picture(scene, options, statistics);
   }
   const auto kernels_before = device.kernel_times();
+  const std::size_t kept_before = device.kept_programs();
   Programs programs(device, kernels, passes_to_run(plan));
   DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
   Film film(device, programs, scene.width, scene.height);
@@ -279,6 +280,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     if (kernel != statistics.kernels.end()) pass.launches = kernel->second.launches;
     statistics.kernel_build_seconds += pass.build_seconds;
   }
+  statistics.kept_programs = device.kept_programs() - kept_before;
   result.statistics = statistics;
   return result;
 }

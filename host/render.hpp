@@ -75,6 +75,7 @@ struct Statistics {
   double first_pass_seconds = 0;  // from the start until the first pass began on the device
   double first_pass_done_seconds = 0;
   double kernel_build_seconds = 0;  // of all programs
+  std::uint64_t kept_programs = 0;  // those that an earlier run had compiled
   std::vector<PassStatistics> pass_programs;
   double pass_seconds = 0;  // of the passes alone, without start-up, writing and snapshots
   double tree_build_seconds = 0;

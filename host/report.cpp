@@ -55,6 +55,13 @@ std::string kernel_table(const std::map<std::string, KernelTime>& kernels) {
   return text;
 }
 
+/// Passes that ran, of which each has a program.
+std::size_t built_programs(const Statistics& s) {
+  return static_cast<std::size_t>(
+      std::count_if(s.pass_programs.begin(), s.pass_programs.end(),
+                    [](const PassStatistics& pass) { return pass.skipped.empty(); }));
+}
+
 std::string pass_table(const std::vector<PassStatistics>& passes) {
   std::string text;
   append(text, "  %-28s %12s %9s  %s\n", "pass", "build s", "launches", "built for");
@@ -91,7 +98,8 @@ std::string statistics_table(const Statistics& s) {
   append(text, "  %-28s %.3f s\n", "time", s.seconds);
   append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
   append(text, "  %-28s %.3f s\n", "  until it was done", s.first_pass_done_seconds);
-  append(text, "  %-28s %.3f s\n", "  building kernels", s.kernel_build_seconds);
+  append(text, "  %-28s %.3f s, %llu of %zu programs kept from an earlier run\n", "  building kernels",
+         s.kernel_build_seconds, Number(s.kept_programs), built_programs(s));
   append(text, "  %-28s %.3f s\n", "  building the tree", s.tree_build_seconds);
   append(text, "  %-28s %llu triangles, %llu other shapes, %llu emitters\n", "scene", Number(s.triangles),
          Number(s.shapes), Number(s.emitters));
@@ -141,6 +149,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"first_pass_seconds", s.first_pass_seconds},
                                    {"first_pass_done_seconds", s.first_pass_done_seconds},
                                    {"kernel_build_seconds", s.kernel_build_seconds},
+                                   {"kept_programs", s.kept_programs},
                                    {"tree_build_seconds", s.tree_build_seconds},
                                    {"passes", s.passes},
                                    {"photons", s.photons},

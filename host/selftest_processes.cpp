@@ -85,7 +85,7 @@ void make_pipe(int& in, int& out) {
 }  // namespace
 
 SelftestProcesses::SelftestProcesses(std::vector<Check> checks, SelftestOptions options,
-                                     const std::string& device)
+                                     const std::string& device, bool keep_kernels)
     : checks_(std::move(checks)), options_(std::move(options)) {
   for (std::size_t i = 0; i < checks_.size(); ++i) {
     const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const auto& members) {
@@ -109,7 +109,7 @@ SelftestProcesses::SelftestProcesses(std::vector<Check> checks, SelftestOptions 
       close(out);
       close_if_open(groups_in_);
       for (const auto& other : helpers_) close(other.rows);
-      help(device, in);
+      help(device, keep_kernels, in);
     }
     close(in);
     if (process < 0) {  // no room for more: those that there are, or none, do it all
@@ -135,14 +135,15 @@ void SelftestProcesses::end(const Helper& helper) {
   }
 }
 
-void SelftestProcesses::help(const std::string& spec, int rows) const {
+void SelftestProcesses::help(const std::string& spec, bool keep_kernels, int rows) const {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a kernel that does not end shall not outlive who asked for it
 #endif
   try {
+    KernelCache kernels(keep_kernels);
     std::optional<Device> device;
     while (const auto group = take_group(groups_out_)) {
-      if (!device) device.emplace(find_device(spec));
+      if (!device) device.emplace(find_device(spec), 0, &kernels);
       for (const std::size_t i : groups_[*group])
         if (!send(rows, i, run_check(*device, checks_[i], options_).result)) _exit(1);
     }

@@ -18,8 +18,9 @@ namespace causticl {
 class SelftestProcesses {
  public:
   /// Forks. To be called before anything asks for OpenCL or starts a thread. `device` is what find_device
-  /// takes.
-  SelftestProcesses(std::vector<Check> checks, SelftestOptions options, const std::string& device);
+  /// takes, and `keep_kernels` what KernelCache takes.
+  SelftestProcesses(std::vector<Check> checks, SelftestOptions options, const std::string& device,
+                    bool keep_kernels);
   ~SelftestProcesses();
   SelftestProcesses(const SelftestProcesses&) = delete;
   SelftestProcesses& operator=(const SelftestProcesses&) = delete;
@@ -43,7 +44,7 @@ class SelftestProcesses {
   int groups_in_ = -1, groups_out_ = -1;          // a pipe: the groups that nobody has taken yet, a byte each
   std::vector<Helper> helpers_;
 
-  [[noreturn]] void help(const std::string& device, int rows) const;
+  [[noreturn]] void help(const std::string& device, bool keep_kernels, int rows) const;
   static void end(const Helper& helper);
   /// The next result of any helper, waited for so long (-1: for ever). None when that is over or all have
   /// ended.

@@ -140,9 +140,10 @@ bool measure_long_runs(StudySession& session) {
 
 }  // namespace
 
-StudyOutcome run_study(const Options& options, const std::function<void(const std::string&)>& say,
+StudyOutcome run_study(const Options& options, KernelCache& kernels,
+                       const std::function<void(const std::string&)>& say,
                        const std::function<bool()>& interrupted) {
-  StudySession session(options, say, interrupted);
+  StudySession session(options, kernels, say, interrupted);
   StudyOutcome outcome;
   plan(session);
   if (!interrupted()) make_reference(session);

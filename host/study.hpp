@@ -7,6 +7,7 @@
 
 namespace causticl {
 
+class KernelCache;
 struct Options;
 
 /// What `study` is told besides the scene and the device.
@@ -27,7 +28,8 @@ struct StudyOutcome {
 /// Measures, writing study.json and study.csv into the folder after every render, and study.html at the end
 /// or when interrupted() says so. A study that the folder holds already is continued. `say` gets each line
 /// that tells how it goes. Throws UserError, also for a folder that holds another study.
-StudyOutcome run_study(const Options& options, const std::function<void(const std::string&)>& say,
+StudyOutcome run_study(const Options& options, KernelCache& kernels,
+                       const std::function<void(const std::string&)>& say,
                        const std::function<bool()>& interrupted);
 
 }  // namespace causticl

@@ -38,8 +38,8 @@ std::string kernels_of(const Scene& scene, const Options& options) {
 
 }  // namespace
 
-StudyRenderer::StudyRenderer(const Options& options, std::vector<std::string> words)
-    : options_(options), words_(std::move(words)) {}
+StudyRenderer::StudyRenderer(const Options& options, KernelCache& kernels, std::vector<std::string> words)
+    : options_(options), kernels_(kernels), words_(std::move(words)) {}
 
 Options StudyRenderer::options_of(const std::vector<std::string>& words) const {
   std::vector<std::string> all{"causticl", "render", options_.scene};
@@ -66,7 +66,7 @@ MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t 
 
   const std::string kernels = kernels_of(scene, options);
   if (std::find(warm_.begin(), warm_.end(), kernels) == warm_.end()) {
-    Device device(device_info, options_.threads);
+    Device device(device_info, options_.threads, &kernels_);
     Scene brief = scene;
     brief.renderer.passes = brief.renderer.samples = 1;
     render_scene(brief, device, render);
@@ -78,7 +78,7 @@ MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t 
   result.run.value = setting.value;
   result.run.seed = seed;
   scene.renderer.passes = scene.renderer.samples = endless;
-  Device device(device_info, options_.threads);
+  Device device(device_info, options_.threads, &kernels_);
   if (reference)
     render.snapshot = [&](const Snapshot& now) {
       result.run.samples.push_back(sample_of(now.passes, now.photons, now.seconds, now.picture, *reference));

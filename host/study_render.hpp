@@ -32,7 +32,7 @@ struct MeasuredRender {
 class StudyRenderer {
  public:
   /// Renders on the device of `options`, with its kernels; `words` of the command line go with every render.
-  StudyRenderer(const Options& options, std::vector<std::string> words);
+  StudyRenderer(const Options& options, KernelCache& kernels, std::vector<std::string> words);
 
   /// Renders a setting until `stop` says so, as `causticl render` would with these words, and compares it
   /// with `reference` (if not null) after passes 1, 2, 3, 4, 6, 8, ... and at the end. The kernels of a
@@ -45,6 +45,7 @@ class StudyRenderer {
 
  private:
   const Options& options_;
+  KernelCache& kernels_;
   std::vector<std::string> words_;
   std::vector<std::string> warm_;  // kernels that have run
 };

@@ -101,7 +101,8 @@ Study open_study(const Options& options, const std::string& folder,
 
 }  // namespace
 
-StudySession::StudySession(const Options& given, std::function<void(const std::string&)> say_line,
+StudySession::StudySession(const Options& given, KernelCache& kernels,
+                           std::function<void(const std::string&)> say_line,
                            std::function<bool()> is_interrupted)
     : options(given),
       say(std::move(say_line)),
@@ -110,7 +111,7 @@ StudySession::StudySession(const Options& given, std::function<void(const std::s
                                         : given.study.folder),
       budget{given.study.budget, given.study.reference.empty()},
       study(open_study(given, folder, say)),
-      renderer(given, study.words),
+      renderer(given, kernels, study.words),
       spent_before_(study.spent_seconds) {
   if (options.scene_options.integrator)
     own_words = {"--integrator", *options.scene_options.integrator == Integrator::pt ? "pt" : "sppm"};

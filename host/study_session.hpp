@@ -17,7 +17,7 @@ class StudySession {
  public:
   /// Opens the folder of the options: a new study, or the one that it holds. Throws UserError for a study of
   /// something else, and for whatever else is at fault in the options.
-  StudySession(const Options& options, std::function<void(const std::string&)> say,
+  StudySession(const Options& options, KernelCache& kernels, std::function<void(const std::string&)> say,
                std::function<bool()> interrupted);
 
   const Options& options;

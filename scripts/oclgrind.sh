@@ -20,7 +20,7 @@ for scene in "${scenes[@]}"; do
     # Optimised kernels make Oclgrind 21.10 loop for ever, and it knows no inlined calls.
     if messages=$(oclgrind --data-races --build-options "-cl-opt-disable -DCAUSTICL_NO_INLINE" \
       "$root/build/causticl" render "$scene" $options --size 5x4 --photons 100 --passes 2 --samples 2 \
-      --quiet -o "$folder/picture.pfm" 2>&1) && [ -z "$messages" ]; then
+      --no-cache --quiet -o "$folder/picture.pfm" 2>&1) && [ -z "$messages" ]; then
       echo "clean: $(basename "$scene") $options"
     else
       echo "FAILED: $(basename "$scene") $options"
@@ -31,7 +31,7 @@ for scene in "${scenes[@]}"; do
 done
 if [ $# -eq 0 ]; then
   if messages=$(oclgrind --data-races --build-options "-cl-opt-disable -DCAUSTICL_NO_INLINE" \
-    "$root/build/causticl" selftest --inputs 64 2>&1); then
+    "$root/build/causticl" selftest --no-cache --inputs 64 2>&1); then
     echo "clean: selftest"
   else
     echo "FAILED: selftest"

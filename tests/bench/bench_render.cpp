@@ -54,7 +54,8 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
     options.size = {16, 16};
     Scene scene = load_scene(scenes + "cornell_box.json", options);
     scene.renderer.passes = 1;
-    Device device(find_device(device_spec));
+    KernelCache kernels(true);
+    Device device(find_device(device_spec), 0, &kernels);
     const auto result = render_scene(scene, device, {});
     seconds[0] = watch.elapsed().wall;
     seconds[1] = result.statistics.kernel_build_seconds;
@@ -95,19 +96,12 @@ std::vector<RenderBenchResult> bench_render(Device& device, int passes) {
 }
 
 StartBenchResult bench_start(const std::string& device_spec) {
-  // PoCL keeps its cache where this says; other drivers have their own, and their cold start is not measured.
   const auto cache = std::filesystem::temp_directory_path() / ("causticl_bench_" + std::to_string(getpid()));
-  std::filesystem::create_directory(cache);
-  const char* before = getenv("POCL_CACHE_DIR");
-  const std::string restored = before ? before : "";
-  setenv("POCL_CACHE_DIR", cache.c_str(), 1);
+  setenv("CAUSTICL_CACHE_DIR", cache.c_str(), 1);
   StartBenchResult result;
   std::tie(result.cold, result.cold_build) = start_once(device_spec);
   std::tie(result.warm, result.warm_build) = start_once(device_spec);
-  if (before)
-    setenv("POCL_CACHE_DIR", restored.c_str(), 1);
-  else
-    unsetenv("POCL_CACHE_DIR");
+  unsetenv("CAUSTICL_CACHE_DIR");
   std::filesystem::remove_all(cache);
   return result;
 }

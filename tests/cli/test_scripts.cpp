@@ -91,7 +91,7 @@ class Machine {
 const std::string all_but_cli11 =
     "g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers "
     "pocl-opencl-icd "
-    "nlohmann-json3-dev libstb-dev libopenexr-dev";
+    "nlohmann-json3-dev libstb-dev libopenexr-dev libxxhash-dev";
 const std::string everything = all_but_cli11 + " libcli11-dev catch2 clang-format";
 
 }  // namespace

@@ -1,0 +1,25 @@
+// A folder of this process alone, gone when it ends.
+#pragma once
+
+#include <filesystem>
+
+namespace causticl {
+
+/// A new folder within `parent`, removed with all that is in it by the destructor. Those that processes left
+/// behind that were killed are removed by the next that makes one beside them.
+class RunFolder {
+ public:
+  /// Throws UserError where none can be made, or where less than `room` bytes are free.
+  RunFolder(const std::filesystem::path& parent, std::uintmax_t room);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  int lock_ = -1;
+};
+
+}  // namespace causticl
