@@ -112,26 +112,41 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
   }
 }
 
+// A piece of a camera ray in the medium: what lies between `from` and `to` of its beginning.
+typedef struct {
+  real3 begin, direction;
+  real from, to;
+  real3 extinction;  // per unit length
+  real g;            // of the phase function
+} MediumSegment;
+
+// Boxes along a segment at most, however small the cubes are.
+#define MOST_SEGMENT_STEPS 1024u
+
 // The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
 #define PHASE_UNIT 16777216.0f
 
-// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` in the medium, each times the phase
-// function for light that is turned to `direction`, in units of phase_density(g, +-1) / PHASE_UNIT. Those within half
-// the radius are also summed alone.
-INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, uint end, real3 point,
-                                real3 direction, real g, real radius2, Gathered *sum) {
-  real peak = phase_density(g, g < 0 ? -1 : 1);
+// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of the line of `segment`, between its ends: each
+// times the phase function for light that turns back along it and times transmittance to its beginning, in units of
+// phase_density(g, +-1) / PHASE_UNIT. Those within half the radius are also summed alone. This is the estimate of a beam by
+// points, with a blur in two dimensions (Jarosz, Nowrouzezahrai, Sadeghi, Jensen 2011, table 1).
+INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, uint end, const MediumSegment *segment,
+                                real radius2, Gathered *sum) {
+  real peak = phase_density(segment->g, segment->g < 0 ? -1 : 1);
   for (uint i = begin; i < end; ++i) {
     global const PhotonBlock *photons = sorted + i / 8;
     uint lane = i % 8, packed = photons->normal[lane];
-    real3 d = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]) - point;
-    if (!(dot(d, d) <= radius2) || !(packed & IN_MEDIUM)) continue;
-    real share = phase_density(g, dot(direction_unpack(packed), direction)) / peak;
-    ulong parts = (ulong)(fmin(share, (real)1) * PHASE_UNIT + (real)0.5);
-    uint red_green = photons->flux_rg[lane];
-    ulong red = parts * (red_green & 0xffffu), green = parts * (red_green >> 16);
-    uint b = photons->flux_b[lane];
-    ulong blue = parts * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);
+    if (!(packed & IN_MEDIUM)) continue;
+    real3 d = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]) - segment->begin;
+    real along = dot(d, segment->direction);
+    d -= along * segment->direction;
+    real distance2 = dot(d, d);
+    if (!(distance2 <= radius2) || !(along >= segment->from) || !(along < segment->to)) continue;
+    real share = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
+    real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + (real)0.5;
+    uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
+    ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
+    ulong blue = (ulong)weight.z * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);
     sum->red += red;
     sum->green += green;
     sum->blue += blue;
@@ -146,18 +161,11 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
       sum->caustic_green += green;
       sum->caustic_blue += blue;
     }
-    if (!(dot(d, d) <= radius2 / 4)) continue;
+    if (!(distance2 <= radius2 / 4)) continue;
     sum->near_red += red;
     sum->near_green += green;
     sum->near_blue += blue;
   }
-}
-
-// The squared radius of the sphere of the medium that goes with discs of radius2: its volume shrinks as their area
-// does, as the theory wants for either (Knaus & Zwicker 2011), from the same first radius.
-INLINE real medium_radius2(real radius2, real first_radius) {
-  real radius = cbrt(radius2 * first_radius);
-  return radius * radius;
 }
 
 // The cubes along one axis that can hold a photon within `radius` of x: *first bucket and their number, at
@@ -170,17 +178,16 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
   return span >= n ? n : span + 1;
 }
 
-// Calls gather_range, or gather_range_medium where `in_medium`, for every bucket that may hold a photon within
-// sqrt(radius2) of `point`, once: a window of at most n cubes along an axis of n buckets has no two in one bucket.
-OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
-                                float3 normal, real radius2, bool in_medium, real3 direction, real g) {
-  Gathered sum = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+// Adds to `sum` what gather_range, or gather_range_medium where there is a `segment`, finds in every bucket that may
+// hold a photon within `reach` of `centre` along each axis, once: a window of at most n cubes along an axis of n
+// buckets has no two in one bucket.
+OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
+                            real3 reach, float3 normal, real radius2, const MediumSegment *segment, Gathered *sum) {
   GatherLanes lanes = gather_lanes_empty();
-  real radius = sqrt(radius2);
   uint i0, j0, k0;
-  uint ni = gather_window(point.x, radius, grid.origin.x, grid.origin.w, grid.nx, &i0);
-  uint nj = gather_window(point.y, radius, grid.origin.y, grid.origin.w, grid.ny, &j0);
-  uint nk = gather_window(point.z, radius, grid.origin.z, grid.origin.w, grid.nz, &k0);
+  uint ni = gather_window(centre.x, reach.x, grid.origin.x, grid.origin.w, grid.nx, &i0);
+  uint nj = gather_window(centre.y, reach.y, grid.origin.y, grid.origin.w, grid.ny, &j0);
+  uint nk = gather_window(centre.z, reach.z, grid.origin.z, grid.origin.w, grid.nz, &k0);
   // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
   uint first_end = min(i0 + ni, grid.nx), wrapped = i0 + ni - first_end;
   for (uint k = 0; k < nk; ++k) {
@@ -190,14 +197,18 @@ OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global con
       global const uint *row = starts + (kk * grid.ny + jj) * grid.nx;
       for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
         uint begin = part == 0 ? row[i0] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
-        if (HAS(EFFECT_MEDIUM) && in_medium)
-          gather_range_medium(sorted, begin, end, point, direction, g, radius2, &sum);
+        if (HAS(EFFECT_MEDIUM) && segment)
+          gather_range_medium(sorted, begin, end, segment, radius2, sum);
         else
-          gather_range(sorted, begin, end, point, normal, radius2, &lanes, &sum);
+          gather_range(sorted, begin, end, centre, normal, radius2, &lanes, sum);
       }
     }
   }
-  gather_lanes_add(lanes, &sum);
+  gather_lanes_add(lanes, sum);
+}
+
+INLINE Gathered gathered_none(void) {
+  Gathered sum = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   return sum;
 }
 
@@ -205,11 +216,27 @@ OUTLINE Gathered gather_buckets(Grid grid, global const uint *starts, global con
 // radius: what the two say differently of the density is a measure of how much the larger one blurs.
 INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
                        float3 normal, real radius2) {
-  return gather_buckets(grid, starts, sorted, point, normal, radius2, false, (real3)(0, 0, 0), 0);
+  Gathered sum = gathered_none();
+  real radius = sqrt(radius2);
+  gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, &sum);
+  return sum;
 }
 
-// The same in the medium, see gather_range_medium.
-INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
-                              real3 direction, real g, real radius2) {
-  return gather_buckets(grid, starts, sorted, point, (float3)(0, 0, 0), radius2, true, direction, g);
+// The same over all photons of the medium within sqrt(radius2) of the segment of length `length` that begins at
+// `segment.begin`, as gather_range_medium weighs them. Goes along it in steps of two cubes, so that the boxes around them
+// hold little else; a photon belongs to the step that it projects into.
+INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const PhotonBlock *sorted,
+                              MediumSegment segment, real length, real radius2) {
+  Gathered sum = gathered_none();
+  real radius = sqrt(radius2), step = 2 / (real)grid.origin.w;
+  uint steps = (uint)fmin(ceil(length / step), (real)MOST_SEGMENT_STEPS);
+  step = length / fmax((real)steps, (real)1);
+  for (uint i = 0; i < steps; ++i) {
+    segment.from = i * step;
+    segment.to = i + 1 == steps ? length : (i + 1) * step;
+    real3 centre = segment.begin + (segment.from + step / 2) * segment.direction;
+    gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, (float3)(0, 0, 0), radius2,
+                   &segment, &sum);
+  }
+  return sum;
 }

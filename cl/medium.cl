@@ -34,6 +34,18 @@ INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 
   return interacts;
 }
 
+// Segments of this length are what a ray of a camera path is cut into, from its origin on: the one that holds `distance`,
+// which medium_flight drew for a path that carried `carried`, begins at *begin and is *length long. Returns what the
+// path carries to its beginning over the probability of any distance within it.
+INLINE real3 medium_segment(const Medium *medium, real3 carried, real t_max, real distance, real segment, real *begin,
+                            real *length) {
+  *begin = floor(distance / segment) * segment;
+  *length = fmin(segment, t_max - *begin);
+  real3 left = transmittance(medium->extinction, *begin);
+  real probability = dot(carried, -left * expm1(-medium->extinction * *length)) / (carried.x + carried.y + carried.z);
+  return probability > 0 ? carried * left / probability : (real3)(0, 0, 0);
+}
+
 // Henyey & Greenstein's phase function, per solid angle, for light that is turned by an angle with this cosine.
 INLINE real phase_density(real g, real cosine) {
   // (1 - g)^2 + 2 g (1 - cosine), in which nothing cancels; for g < 0 its mirror image.

@@ -4,6 +4,7 @@
 #include "direct.cl"
 #include "grid.cl"
 #include "layers.cl"
+#include "visible_point.cl"
 #include "work_group.cl"
 
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
@@ -28,6 +29,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
+  real3 segment = (real3)(0, 0, 0);  // of a visible point in the medium
   Interior interior = interior_none();
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
@@ -35,18 +37,21 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     bool met = geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
-      real distance;
+      real distance, begin, length;
+      real3 before = throughput;
       if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
         if (depth == params->max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
-        point.normal = direction_pack(-ray.direction) | receiver_mark(history);
+        point.normal = IN_MEDIUM | receiver_mark(history);
         history = history_after(history, false);
         if (shadow_rays)
           radiance_add(&radiance, history,
                        direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
                                            random_at(stream, depth, DIM_LIGHT), false, &rays, counters));
-        vstore3(position, 0, point.position);
-        vstore3(throughput, 0, point.weight);
+        real3 weight = medium_segment(&scene->medium, before, hit.t, distance, params->segment, &begin, &length);
+        segment = length * ray.direction;
+        vstore3(ray.origin + begin * ray.direction, 0, point.position);
+        vstore3(weight, 0, point.weight);
         break;
       }
     }
@@ -112,10 +117,10 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   vstore3(radiance.sum, 0, point.radiance);
   visible_points[index] = point;
   if (HAS(OUTPUT_LAYERS)) {
-    uint count = params->pixel_count * params->visible_points;
-    global VisibleLayers *layers = (global VisibleLayers *)(visible_points + count) + index;
+    global VisibleLayers *layers = visible_layers(visible_points, params) + index;
     for (uint i = 0; i < LAYER_COUNT; ++i) vstore3(radiance.layer[i], 0, layers->radiance[i]);
   }
+  if (HAS(EFFECT_MEDIUM)) vstore3(segment, 0, visible_segments(visible_points, params)[index].offset);
   return rays;
 }
 

@@ -1,11 +1,23 @@
 // The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
 #include "gather.cl"
 #include "sppm.cl"
+#include "visible_point.cl"
+
+// The photons around the segment of visible point `i` in the medium.
+INLINE Gathered gather_visible_segment(Grid grid, global const uint *starts, global const PhotonBlock *sorted,
+                                       global VisiblePoint *visible_points, uint i, const Params *params, real radius2) {
+  real3 offset = vload3(0, visible_segments(visible_points, params)[i].offset);
+  real length2 = dot(offset, offset), length = sqrt(length2);
+  if (!(length2 > 0)) return gathered_none();
+  MediumSegment segment = {vload3(0, visible_points[i].position), offset / length, 0, 0,
+                           convert_real3(params->extinction.xyz), params->extinction.w};
+  return gather_medium(grid, starts, sorted, segment, length, radius2);
+}
 
 // photon_counts[i] = photons within sqrt(params.radius2) of visible point i; COUNT_NOTHING where the path met no
 // diffuse surface. For choosing the first radius.
 #define COUNT_NOTHING 0xffffffffu
-kernel void count_around(global const VisiblePoint *visible_points, global const uint *starts,
+kernel void count_around(global VisiblePoint *visible_points, global const uint *starts,
                          global const PhotonBlock *sorted, global uint *photon_counts, Grid grid, Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count * params.visible_points) return;
@@ -14,9 +26,8 @@ kernel void count_around(global const VisiblePoint *visible_points, global const
   if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0))
     photon_counts[i] = COUNT_NOTHING;
   else if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM))
-    photon_counts[i] = gather_medium(grid, starts, sorted, position, direction_unpack(point.normal),
-                                     params.extinction.w, medium_radius2(params.radius2, params.first_radius))
-                           .count;
+    photon_counts[i] =
+        gather_visible_segment(grid, starts, sorted, visible_points, i, &params, params.radius2).count;
   else
     photon_counts[i] = gather(grid, starts, sorted, position, normal_unpack(point.normal), params.radius2).count;
 }
@@ -36,7 +47,7 @@ INLINE void layers_gathered(Radiance *radiance, const Gathered *sum, real3 weigh
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
 // the film, with how much less half the radius around each point says; equations (8) and (9) update its radius. With
 // params.radius2 > 0 that radius holds for all pixels.
-kernel void gather_photons(global const VisiblePoint *visible_points, global SppmPixel *pixels,
+kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel *pixels,
                            global FilmPixel *film, global const uint *starts, global const PhotonBlock *sorted,
                            volatile global Counters *counters, Grid grid, Params params) {
   uint i = get_global_id(0);
@@ -45,7 +56,6 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   SppmPixel pixel = pixels[index];
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
-  real3 scattered = (real3)(0, 0, 0), scattered_near = (real3)(0, 0, 0);
   Radiance radiance = radiance_none();
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   uint found = 0;
@@ -53,26 +63,20 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
     VisiblePoint point = visible_points[i * params.visible_points + s];
     radiance.sum += vload3(0, point.radiance);
     if (HAS(OUTPUT_LAYERS)) {
-      uint count = params.pixel_count * params.visible_points;
-      global const VisibleLayers *layers = (global const VisibleLayers *)(visible_points + count);
+      global const VisibleLayers *layers = visible_layers(visible_points, &params);
       for (uint k = 0; k < LAYER_COUNT; ++k)
         radiance.layer[k] += vload3(0, layers[i * params.visible_points + s].radiance[k]);
     }
     real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
+    Gathered sum;
     if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM)) {
-      real g = params.extinction.w, sphere2 = medium_radius2(radius2, params.first_radius);
-      Gathered sum = gather_medium(grid, starts, sorted, vload3(0, point.position), direction_unpack(point.normal), g,
-                                   sphere2);
-      real peak = phase_density(g, g < 0 ? -1 : 1), volume = 4 * PI / 3 * sphere2 * sqrt(sphere2);
-      weight *= params.photon_flux / (PHOTON_FLUX_UNIT * PHASE_UNIT) * peak / volume;
-      scattered += weight * (real3)(sum.red, sum.green, sum.blue);
-      scattered_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
-      found = add_sat(found, sum.count);
-      if (HAS(OUTPUT_LAYERS)) layers_gathered(&radiance, &sum, weight, point.normal & BEYOND_RECEIVER);
-      continue;
+      real g = params.extinction.w;
+      sum = gather_visible_segment(grid, starts, sorted, visible_points, i * params.visible_points + s, &params, radius2);
+      weight *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
+    } else {
+      sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     }
-    Gathered sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
     reflected += weight * (real3)(sum.red, sum.green, sum.blue);
     reflected_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
     found = add_sat(found, sum.count);
@@ -81,11 +85,6 @@ kernel void gather_photons(global const VisiblePoint *visible_points, global Spp
   }
   real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
   if (found > 0) radiance.sum += reflected * density;
-  if (HAS(EFFECT_MEDIUM)) {
-    // A sphere of half the radius has an eighth of the volume; its bias is a quarter of the whole's, as that of discs.
-    radiance.sum += scattered;
-    blur += (scattered - 8 * scattered_near) / params.visible_points;
-  }
   radiance.sum /= params.visible_points;
   if (HAS(OUTPUT_LAYERS))
     for (uint k = 0; k < LAYER_COUNT; ++k) radiance.layer[k] /= params.visible_points;

@@ -210,7 +210,7 @@ typedef struct {
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
   float inverse_wavelength2[3];  // 1 / wavelength^2 in um^-2 that each channel stands for in this pass
-  float first_radius;        // of the search
+  float segment;             // length of the pieces of camera rays in the medium around which photons are gathered
   float4 extinction;         // of the medium, absorption + scattering per unit length; w: Henyey & Greenstein's g
   float4 scattering;         // of the medium, per unit length
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
@@ -260,18 +260,20 @@ typedef struct {
 } PixelError;
 CHECK_SIZE(PixelError, 12);
 
-// The mark of visible points and photons that lie in the medium: their `normal` holds a direction (direction_pack).
+// The mark of visible points and photons that lie in the medium: a photon's `normal` holds a direction then
+// (direction_pack).
 #define IN_MEDIUM 0x80000000u
 // The mark of visible points whose path was scattered before by other than a perfectly specular lobe: their `normal`.
 #define BEYOND_RECEIVER 0x40000000u
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
-// found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium,
-// `weight` is throughput / density of the distance: times the density of scattered flux and the phase function it is
-// radiance at the camera.
+// found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium
+// `position` is where a segment of the path begins, and `weight` what is carried there over the probability of an event
+// within it (medium_segment): times the scattered flux around it per area, times the phase function and transmittance to
+// its beginning, it is radiance at the camera.
 typedef struct {
   real position[3];
-  uint normal;         // normal_pack, facing the camera path; in the medium, back along it
+  uint normal;         // normal_pack, facing the camera path; in the medium, nothing but marks
   real weight[3];
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;
@@ -281,6 +283,12 @@ typedef struct {
 typedef struct {
   real radiance[LAYER_COUNT][3];
 } VisibleLayers;
+
+// What leads from the beginning of a visible point's segment in the medium to its end. With EFFECT_MEDIUM those of all
+// points of a launch follow the points and layers in their buffer.
+typedef struct {
+  real offset[3];
+} VisibleSegment;
 
 // A photon that landed on a diffuse surface, or that the medium scatters, as traced. Flux is quantised with unbiased
 // dithering in units of Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
@@ -307,11 +315,13 @@ typedef struct {
 #ifdef CAUSTICL_DOUBLE
 CHECK_SIZE(VisiblePoint, 80);
 CHECK_SIZE(VisibleLayers, 72);
+CHECK_SIZE(VisibleSegment, 24);
 CHECK_SIZE(Photon, 40);
 CHECK_SIZE(PhotonBlock, 288);
 #else
 CHECK_SIZE(VisiblePoint, 40);
 CHECK_SIZE(VisibleLayers, 36);
+CHECK_SIZE(VisibleSegment, 12);
 CHECK_SIZE(Photon, 24);
 CHECK_SIZE(PhotonBlock, 192);
 #endif

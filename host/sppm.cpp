@@ -5,9 +5,18 @@
 #include <numbers>
 #include <vector>
 
+#include "effects.h"
 #include "params.hpp"
 
 namespace causticl {
+namespace {
+
+/// Of the scene's half extent: the length of the pieces of camera rays in the medium around which photons are
+/// gathered. Longer ones find more photons, in a time that grows with them: of 0.05, 0.3 and 1 this one has
+/// the smallest error at equal time in scenes/effects/fog.json.
+constexpr double segment_share = 0.3;
+
+}  // namespace
 
 Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
            std::uint32_t seed, bool with_photons)
@@ -20,7 +29,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       counters_(device.buffer(sizeof(Counters), "counters")),
       photon_map_(device_scene, device, programs, counters_),
       with_photons_(with_photons && params_.emitter_count > 0),
-      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0)) *
+      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
+                            ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
                            record_scale(programs.options().precision)),
       smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
@@ -28,6 +38,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   params_.photon_count = static_cast<uint>(spec_.photons);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
+  params_.segment = static_cast<float>(segment_share * device_scene.extent);
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
   visible_points_ =
@@ -48,7 +59,6 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(programs, device_scene.extent);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
-  params_.first_radius = static_cast<float>(first_radius_);
   cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
   set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
@@ -89,7 +99,6 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
-    params.first_radius = static_cast<float>(radius);
     photon_map_.sort(2 * radius);
     set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
                   photon_map_.grid(), params);

@@ -40,11 +40,25 @@ kernel void pack(global const float4 *in, global float4 *out, uint count) {
   out[i] = (float4)(direction_unpack(packed), packed & IN_MEDIUM ? 1 : 0);
 }
 kernel void collect(Grid grid, global const uint *starts, global const PhotonBlock *sorted, global const float4 *points,
-                    global ulong4 *out, uint count, float4 direction, float g, float radius2) {
+                    global ulong4 *out, uint count, float4 direction, float4 extinction, float g, float radius2) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  Gathered sum = gather_medium(grid, starts, sorted, points[i].xyz, direction.xyz, g, radius2);
-  out[i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+  MediumSegment segment = {points[i].xyz, direction.xyz, 0, 0, extinction.xyz, g};
+  Gathered sum = gather_medium(grid, starts, sorted, segment, points[i].w, radius2);
+  out[2 * i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
+  out[2 * i + 1] = (ulong4)(sum.near_red, sum.near_green, sum.near_blue, 0);
+}
+kernel void cut(global const Flight *in, global float4 *out, uint count, float segment) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Medium medium = {in[i].extinction.xyz, (real3)(0, 0, 0), 0};
+  real3 carried = in[i].carried.xyz;
+  real distance = -1, begin = -1, length = -1;
+  real3 weight = (real3)(0, 0, 0);
+  if (medium_flight(&medium, in[i].end.x, (real2)(in[i].carried.w, in[i].extinction.w), &carried, &distance))
+    weight = medium_segment(&medium, in[i].carried.xyz, in[i].end.x, distance, segment, &begin, &length);
+  out[2 * i] = (float4)(weight, begin);
+  out[2 * i + 1] = (float4)(distance, length, 0, 0);
 }
 kernel void directions(global const float4 *in, global uint *out, uint count) {
   uint i = get_global_id(0);
@@ -191,7 +205,53 @@ TEST_CASE("directions are packed to two ten-thousandths, and marked") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("photons of the medium are gathered as brute force does, and those on surfaces are left out") {
+TEST_CASE("the segment that a flight ends in carries transmittance over the probability of ending there") {
+  struct Flight {
+    float4 carried, extinction, end;
+  };
+  constexpr std::size_t count = 1 << 19;
+  constexpr float segment = 0.7f;
+  RandomInputs random(226);
+  std::vector<Flight> inputs(count);
+  for (auto& input : inputs) {
+    const auto channel = [&] { return random.uniform() < 0.2 ? 0.0 : random.uniform(); };
+    input.carried = to_float4({channel(), channel(), channel()}, uniform24(random));
+    input.extinction = to_float4({3 * channel(), 3 * channel(), 3 * channel()}, uniform24(random));
+    input.end.x = random.uniform() < 0.1 ? INFINITY : static_cast<float>(random.uniform(0, 3));
+  }
+  auto in = test_device().upload(inputs, "inputs");
+  auto out = test_device().buffer(2 * count * sizeof(float4), "outputs");
+  run_kernel(program(), "cut", count, in, out, cl_uint(count), segment);
+  const auto outputs = test_device().download<float4>(out, 2 * count);
+  std::size_t wrong = 0, ended = 0, last = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance = outputs[2 * i + 1].x, length = outputs[2 * i + 1].y, begin = outputs[2 * i].w;
+    if (begin < 0) continue;  // it passes
+    ++ended;
+    last += length < segment;
+    const Vec3 carried = to_vec3(inputs[i].carried), extinction = to_vec3(inputs[i].extinction);
+    const double sum = carried.x + carried.y + carried.z, end = inputs[i].end.x;
+    // Segments lie side by side from the origin on, and the last one ends where the ray does.
+    wrong += std::fabs(begin / segment - std::round(begin / segment)) > 1e-6 * (1 + begin) ||
+             !(begin <= distance * (1 + 1e-6)) || !(distance <= (begin + length) * (1 + 1e-6)) ||
+             std::fabs(length - std::min<double>(segment, end - begin)) > 1e-6 * (1 + begin);
+    double probability = 0;
+    for (int c = 0; c < 3; ++c)
+      probability +=
+          carried[c] / sum * std::exp(-extinction[c] * begin) * -std::expm1(-extinction[c] * length);
+    for (int c = 0; c < 3; ++c) {
+      const double exact = carried[c] * std::exp(-extinction[c] * begin) / probability;
+      wrong += !(std::fabs(to_vec3(outputs[2 * i])[c] - exact) <= 1e-4 * exact + 1e-30);
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(ended > count / 3);
+  CHECK(last > count / 20);
+}
+
+TEST_CASE(
+    "photons around a segment in the medium are gathered as brute force does, and those on surfaces left "
+    "out") {
   RandomInputs random(225);
   constexpr std::size_t photon_count = 20000, point_count = 500;
   std::vector<float4> directions(photon_count);
@@ -209,40 +269,53 @@ TEST_CASE("photons of the medium are gathered as brute force does, and those on 
                   static_cast<uint>(random.engine()) & 0xffffu};
     if (i % 3 == 0) photons[i].normal &= 0xffffffu;
   }
+  // From less than a cube to several times around the grid.
   std::vector<float4> points(point_count);
-  for (auto& point : points) point = {coordinate(), coordinate(), coordinate(), 0};
-  const Vec3 towards = random_direction(random);
+  for (auto& point : points)
+    point = {coordinate(), coordinate(), coordinate(),
+             static_cast<float>(random.uniform() < 0.1 ? 4 : random.uniform(0, 0.6))};
+  const Vec3 towards = to_vec3(to_float4(random_direction(random))), extinction{0.3, 0, 2};
   for (const auto& [g, radius] : {std::pair{0.0, 0.1}, {0.6, 0.3}, {-0.9, 0.2}}) {
     const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8, photon_count);
     const auto sorted = sort_photons(test_device(), program(), photons, grid);
     auto where = test_device().upload(points, "points");
-    auto out = test_device().buffer(point_count * 4 * sizeof(cl_ulong), "sums");
+    auto out = test_device().buffer(2 * point_count * 4 * sizeof(cl_ulong), "sums");
     const auto radius2 = static_cast<float>(radius * radius);
     run_kernel(program(), "collect", point_count, grid, sorted.starts, sorted.sorted, where, out,
-               cl_uint(point_count), to_float4(towards), static_cast<float>(g), radius2);
-    const auto sums = test_device().download<cl_ulong>(out, 4 * point_count);
+               cl_uint(point_count), to_float4(towards), to_float4(extinction), static_cast<float>(g),
+               radius2);
+    const auto sums = test_device().download<cl_ulong>(out, 8 * point_count);
     const double peak = phase_oracle(std::fabs(g), 1);
     std::size_t wrong = 0, found = 0;
     for (std::size_t p = 0; p < point_count; ++p) {
-      double red = 0, blue = 0;
+      double red = 0, blue = 0, near_red = 0;
       std::size_t inside = 0, border = 0;
       for (std::size_t i = 0; i < photon_count; ++i) {
         if (i % 3 == 0) continue;
         const Vec3 d =
             Vec3{photons[i].position[0], photons[i].position[1], photons[i].position[2]} - to_vec3(points[p]);
-        border += std::fabs(dot(d, d) - radius2) < 1e-6 * radius2;
-        if (dot(d, d) > radius2) continue;
+        const double along = dot(d, towards), distance2 = dot(d, d) - along * along;
+        const bool is_near = distance2 <= radius2 / 4;
+        if (distance2 > radius2 * 1.001 || along < -0.001 || along > points[p].w + 0.001) continue;
+        border += std::fabs(distance2 - radius2) < 1e-5 * radius2 || std::fabs(along) < 1e-6 ||
+                  std::fabs(along - points[p].w) < 1e-6 ||
+                  std::fabs(distance2 - radius2 / 4) < 1e-5 * radius2;
+        if (distance2 > radius2 || along < 0 || along >= points[p].w) continue;
         ++inside;
-        const double share = phase_oracle(g, dot(to_vec3(directions[i]), to_vec3(to_float4(towards)))) / peak;
-        red += share * (photons[i].flux_rg & 0xffffu);
-        blue += share * photons[i].flux_b;
+        const double share = phase_oracle(g, -dot(to_vec3(directions[i]), towards)) / peak;
+        const double red_share = share * std::exp(-extinction.x * along) * (photons[i].flux_rg & 0xffffu);
+        red += red_share;
+        if (is_near) near_red += red_share;
+        blue += share * std::exp(-extinction.z * along) * photons[i].flux_b;
       }
       found += inside;
       if (border) continue;
       const double unit = 16777216;
+      const cl_ulong* all = &sums[8 * p];
       // Packed directions are a ten-thousandth off, of which the phase function near its peak makes more.
-      wrong += sums[4 * p + 3] != inside || !(std::fabs(sums[4 * p] / unit - red) <= 2e-3 * red + 0.01) ||
-               !(std::fabs(sums[4 * p + 2] / unit - blue) <= 2e-3 * blue + 0.01);
+      wrong += all[3] != inside || !(std::fabs(all[0] / unit - red) <= 2e-3 * red + 0.01) ||
+               !(std::fabs(all[2] / unit - blue) <= 2e-3 * blue + 0.01) ||
+               !(std::fabs(all[4] / unit - near_red) <= 2e-3 * near_red + 0.01);
     }
     CAPTURE(g, radius);
     CHECK(found > point_count);

@@ -36,13 +36,13 @@ const std::vector<Budget> budgets{
     {"glass_caustic.json", 12000, 5000, 40000, 32, 24, 0.4},
     {"effects/rough_metals.json", 800, 60000, 4096, 64, 40, 0.08},
     {"effects/point_lights.json", 400, 60000, 2048, 64, 40, 0.08},
-    {"effects/sky.json", 1600, 60000, 65536, 32, 20, 0.06},
+    {"effects/sky.json", 8000, 10000, 65536, 32, 20, 0.06},
     {"effects/spot_caustic.json", 200, 60000, 4096, 64, 40, 0.08, {"materials.ball"}},
     {"effects/sun.json", 96, 100000, 1024, 64, 40, 0.1, {"materials.glass", "materials.blue"}},
     {"effects/coloured_glass.json", 1600, 30000, 16384, 64, 40, 0.1},
     {"effects/prism.json", 4000, 30000, 160000, 32, 20, 0.1},
     {"effects/moving_balls.json", 1600, 30000, 16384, 64, 40, 0.1},
-    {"effects/fog.json", 1600, 30000, 16384, 64, 40, 0.2},
+    {"effects/fog.json", 2400, 300000, 16384, 64, 40, 0.2},
 };
 
 Scene scene_of(const Budget& budget, int width, int height) {

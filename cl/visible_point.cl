@@ -1,0 +1,12 @@
+// What lies behind the visible points in their buffer: see VisiblePoint in types.h.
+#include "effects.h"
+#include "types.h"
+
+INLINE global VisibleLayers *visible_layers(global VisiblePoint *points, const Params *params) {
+  return (global VisibleLayers *)(points + params->pixel_count * params->visible_points);
+}
+
+INLINE global VisibleSegment *visible_segments(global VisiblePoint *points, const Params *params) {
+  global VisibleLayers *layers = visible_layers(points, params);
+  return (global VisibleSegment *)(HAS(OUTPUT_LAYERS) ? layers + params->pixel_count * params->visible_points : layers);
+}
