@@ -23,7 +23,7 @@ fs::path cache_folder() {
     const char* value = std::getenv(name);
     return fs::path(value ? value : "");
   };
-  if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return own;
+  if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return fs::absolute(own);
   if (const fs::path shared = variable("XDG_CACHE_HOME"); !shared.empty()) return shared / "causticl";
   if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache" / "causticl";
   return {};
@@ -90,7 +90,11 @@ KernelCache::KernelCache(bool keep, std::uint64_t limit) {
 }
 
 KernelCache::~KernelCache() {
-  store_compiled();
+  try {
+    store_compiled();
+  } catch (const std::exception&) {
+    // What is not stored is built anew by the next run.
+  }
   if (run_ && !pocl_is_the_users_) unsetenv("POCL_CACHE_DIR");
 }
 
@@ -109,10 +113,9 @@ void KernelCache::open(bool keep, std::uint64_t limit) {
                        "; set CAUSTICL_CACHE_DIR to a folder with room, or say --no-cache");
   try {
     std::error_code error;
-    run_.emplace(fs::temp_directory_path(error) / "causticl", room_for_kernels);
+    run_.emplace(fs::temp_directory_path(error), room_for_kernels);
   } catch (const UserError& error) {
-    throw DeviceError(std::string("kernels cannot be built: ") + error.what() +
-                      "; set TMPDIR to a folder with room");
+    no_run_folder_ = error.what();  // of which PoCL alone has need
   }
 }
 
@@ -142,6 +145,9 @@ cl::Program KernelCache::build(const cl::Context& context, const cl::Device& dev
 
 cl::Program KernelCache::build_pocl(const cl::Context& context, const cl::Device& device,
                                     const ProgramText& text) {
+  if (!run_)
+    throw DeviceError("kernels cannot be built: " + no_run_folder_ +
+                      "; set CAUSTICL_CACHE_DIR or TMPDIR to a folder with room");
   // PoCL builds one program at a time whatever it is asked for, and a folder that is new is this program's.
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string key = key_of(text);

@@ -38,7 +38,8 @@ class KernelCache {
   KernelCache(const KernelCache&) = delete;
   KernelCache& operator=(const KernelCache&) = delete;
 
-  /// Builds `text`, from what is kept of it where that is possible. Throws cl::Error.
+  /// Builds `text`, from what is kept of it where that is possible. Throws cl::Error, and DeviceError where
+  /// PoCL has no folder to write to.
   cl::Program build(const cl::Context& context, const cl::Device& device, const ProgramText& text,
                     KernelForm form);
 
@@ -59,6 +60,7 @@ class KernelCache {
   mutable std::mutex mutex_;
   std::optional<RunFolder> run_;
   std::optional<KernelStore> store_;
+  std::string no_run_folder_;  // why, where there is none
   bool pocl_is_the_users_ = false;
   std::map<std::string, PoclProgram> pocl_programs_;  // by key
   std::size_t reused_ = 0;

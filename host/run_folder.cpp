@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* prefix = "run-";
+constexpr const char* prefix = "causticl-run-";
 constexpr const char* lock_name = "in_use";
 
 /// Whether nobody holds the lock of `folder`, and nobody can be about to take it.

@@ -5,8 +5,8 @@
 
 namespace causticl {
 
-/// A new folder within `parent`, removed with all that is in it by the destructor. Those that processes left
-/// behind that were killed are removed by the next that makes one beside them.
+/// A new folder within `parent`, for this user alone, removed with all that is in it by the destructor. Those
+/// that processes left behind that were killed are removed by the next that makes one beside them.
 class RunFolder {
  public:
   /// Throws UserError where none can be made, or where less than `room` bytes are free.

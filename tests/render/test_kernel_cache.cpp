@@ -128,15 +128,15 @@ TEST_CASE("the folder of a run is its own and goes with it; those left behind go
     CHECK(fs::exists(path / "file"));
   }
   CHECK(fs::is_empty(parent));
-  for (const char* name : {"run-old", "run-new", "other"}) {
+  for (const char* name : {"causticl-run-old", "causticl-run-new", "other"}) {
     fs::create_directories(parent / name);
     std::ofstream(parent / name / "in_use") << "";
   }
-  for (const char* name : {"run-old", "other"})
+  for (const char* name : {"causticl-run-old", "other"})
     fs::last_write_time(parent / name, fs::file_time_type::clock::now() - std::chrono::hours(1));
   const RunFolder next(parent, 1);
-  CHECK(!fs::exists(parent / "run-old"));
-  CHECK(fs::exists(parent / "run-new"));  // its process may be about to lock it
+  CHECK(!fs::exists(parent / "causticl-run-old"));
+  CHECK(fs::exists(parent / "causticl-run-new"));  // its process may be about to lock it
   CHECK(fs::exists(parent / "other"));
   CHECK_THAT(user_error_of([&] { RunFolder(parent, UINTMAX_MAX); }), Catch::Contains(" MiB left"));
   CHECK_THAT(user_error_of([&] { RunFolder(folder.write("file", "") + "/cache", 1); }),
