@@ -120,11 +120,16 @@ typedef struct {
   real g;            // of the phase function
 } MediumSegment;
 
-// Boxes along a segment at most, however small the cubes are.
-#define MOST_SEGMENT_STEPS 1024u
-
 // The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
 #define PHASE_UNIT 16777216.0f
+
+// A random number in [0, 1) that is the same wherever a photon of direction `packed` is met at distance `along`: by it
+// shares are rounded, since far from the peak of the phase function they are a few parts or less.
+INLINE real share_dither(uint packed, real along) {
+  uint hash = (packed ^ as_uint((float)along)) * 2654435769u;
+  hash = (hash ^ (hash >> 15)) * 2246822519u;
+  return (real)(hash >> 8) / 16777216;
+}
 
 // Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of the line of `segment`, between its ends: each
 // times the phase function for light that turns back along it and times transmittance to its beginning, in units of
@@ -143,7 +148,7 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
     real distance2 = dot(d, d);
     if (!(distance2 <= radius2) || !(along >= segment->from) || !(along < segment->to)) continue;
     real share = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
-    real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + (real)0.5;
+    real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + share_dither(packed, along);
     uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
     ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
     ulong blue = (ulong)weight.z * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);

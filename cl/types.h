@@ -191,6 +191,9 @@ typedef struct {
 } EnvironmentTexel;
 CHECK_SIZE(EnvironmentTexel, 24);
 
+// Boxes of the photon grid along a camera ray's segment in the medium, at most.
+#define MOST_SEGMENT_STEPS 1024u
+
 // The points of every emitting surface are drawn with the same density per area and unit of radiance:
 // largest channel of radiance * emitter_density (times two where both sides emit).
 typedef struct {
@@ -210,7 +213,8 @@ typedef struct {
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
   float inverse_wavelength2[3];  // 1 / wavelength^2 in um^-2 that each channel stands for in this pass
-  float segment;             // length of the pieces of camera rays in the medium around which photons are gathered
+  float segment;             // length of the pieces of camera rays in the medium around which photons are gathered:
+                             // at most MOST_SEGMENT_STEPS times two cubes of the grid
   float4 extinction;         // of the medium, absorption + scattering per unit length; w: Henyey & Greenstein's g
   float4 scattering;         // of the medium, per unit length
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it

@@ -24,7 +24,8 @@ fs::path cache_folder() {
     return fs::path(value ? value : "");
   };
   if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return fs::absolute(own);
-  if (const fs::path shared = variable("XDG_CACHE_HOME"); !shared.empty()) return shared / "causticl";
+  // The XDG specification has relative paths ignored.
+  if (const fs::path shared = variable("XDG_CACHE_HOME"); shared.is_absolute()) return shared / "causticl";
   if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache" / "causticl";
   return {};
 }
@@ -61,10 +62,12 @@ std::set<std::string> files_below(const fs::path& top, const std::string& folder
   return result;
 }
 
+/// Throws std::runtime_error where one cannot be read.
 KernelFiles read_files(const fs::path& top, const std::set<std::string>& names) {
   KernelFiles files;
   for (const auto& name : names) {
     std::ifstream in(top / name, std::ios::binary);
+    if (!in) throw std::runtime_error((top / name).string() + " cannot be read");
     files.push_back({name, {std::istreambuf_iterator<char>(in), {}}});
   }
   return files;
@@ -90,11 +93,7 @@ KernelCache::KernelCache(bool keep, std::uint64_t limit) {
 }
 
 KernelCache::~KernelCache() {
-  try {
-    store_compiled();
-  } catch (const std::exception&) {
-    // What is not stored is built anew by the next run.
-  }
+  store_compiled();
   if (run_ && !pocl_is_the_users_) unsetenv("POCL_CACHE_DIR");
 }
 
@@ -131,10 +130,14 @@ void KernelCache::save(const std::string& key, const KernelFiles& files) {
   if (!store_) return;
   try {
     store_->save(key, files);
-  } catch (const UserError& error) {
-    notices_.push_back("kernels are not kept for the next run: " + std::string(error.what()));
-    store_.reset();
+  } catch (const std::exception& error) {
+    stop_storing(error);
   }
+}
+
+void KernelCache::stop_storing(const std::exception& why) {
+  notices_.push_back("kernels are not kept for the next run: " + std::string(why.what()));
+  store_.reset();
 }
 
 cl::Program KernelCache::build(const cl::Context& context, const cl::Device& device, const ProgramText& text,
@@ -168,6 +171,10 @@ KernelCache::PoclProgram KernelCache::fill_run_folder(const KernelFiles& files) 
   const fs::path& top = run_->path();
   std::error_code error;
   PoclProgram program;
+  if (files.empty()) return program;
+  program.folder = program_folder_of(files.front().name);
+  // Texts that the preprocessor makes one share a folder, and its files may be in use.
+  if (program.stored = files_below(top, program.folder); !program.stored.empty()) return program;
   for (const auto& file : files) {
     fs::create_directories((top / file.name).parent_path(), error);
     std::ofstream out(top / file.name, std::ios::binary);
@@ -179,7 +186,6 @@ KernelCache::PoclProgram KernelCache::fill_run_folder(const KernelFiles& files) 
     for (const auto& name : program.stored) fs::remove(top / name, error);
     return {};
   }
-  if (!files.empty()) program.folder = program_folder_of(files.front().name);
   return program;
 }
 
@@ -209,12 +215,16 @@ cl::Program KernelCache::build_binary(const cl::Context& context, const cl::Devi
 
 void KernelCache::store_compiled() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto& [key, program] : pocl_programs_) {
-    if (!store_) return;
-    auto files = files_below(run_->path(), program.folder);
-    if (files == program.stored) continue;
-    save(key, read_files(run_->path(), files));
-    program.stored = std::move(files);
+  try {
+    for (auto& [key, program] : pocl_programs_) {
+      if (!store_) return;
+      auto files = files_below(run_->path(), program.folder);
+      if (files.empty() || files == program.stored) continue;
+      save(key, read_files(run_->path(), files));
+      program.stored = std::move(files);
+    }
+  } catch (const std::exception& error) {
+    stop_storing(error);
   }
 }
 

@@ -43,7 +43,8 @@ class KernelCache {
   cl::Program build(const cl::Context& context, const cl::Device& device, const ProgramText& text,
                     KernelForm form);
 
-  /// Stores what drivers have compiled since the last call: PoCL compiles a kernel at its first launch.
+  /// Stores what drivers have compiled since the last call: PoCL compiles a kernel at its first launch. Where
+  /// that fails, a notice says so and nothing more is stored.
   void store_compiled();
 
   /// Programs that were built of what was kept.
@@ -69,6 +70,7 @@ class KernelCache {
   void open(bool keep, std::uint64_t limit);
   std::optional<KernelFiles> load(const std::string& key);
   void save(const std::string& key, const KernelFiles& files);
+  void stop_storing(const std::exception& why);
   /// Puts what was kept of a program where PoCL finds it. Nothing where there is no room.
   PoclProgram fill_run_folder(const KernelFiles& files);
   cl::Program build_pocl(const cl::Context& context, const cl::Device& device, const ProgramText& text);

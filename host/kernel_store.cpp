@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -110,12 +109,9 @@ void KernelStore::remove_oldest() const {
   std::uint64_t total = 0;
   std::error_code error;  // another process may remove them at the same time
   for (const auto& found : fs::directory_iterator(folder_, error)) {
-    const auto used = found.last_write_time(error);
-    // Half an entry of a process that was killed; no live one takes so long to write it.
-    if (!error && found.path().extension() == ".tmp" &&
-        fs::file_time_type::clock::now() - used > std::chrono::hours(1))
-      fs::remove(found.path(), error);
+    if (is_left_half_written(found.path())) fs::remove(found.path(), error);
     if (found.path().extension() != extension) continue;
+    const auto used = found.last_write_time(error);
     const std::uint64_t size = error ? 0 : found.file_size(error);
     if (error) continue;
     entries.push_back({used, size, found.path()});

@@ -25,7 +25,7 @@ std::string size_text(const Picture& picture) {
   return std::to_string(picture.width) + "x" + std::to_string(picture.height) + " pixels";
 }
 
-/// What a command's kernels are built through, and `say` of what the user should know of it.
+/// Gives `say` what the user should know of the kernels' cache.
 template <typename Say>
 void report_notices(KernelCache& kernels, const Say& say) {
   for (const auto& notice : kernels.take_notices()) say(notice);

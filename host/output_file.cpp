@@ -5,9 +5,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 #include "error.hpp"
 
@@ -15,6 +15,8 @@ namespace causticl {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string temporary_prefix = ".causticl-", temporary_extension = ".tmp";
 
 [[noreturn]] void fail(const std::string& file, const std::string& fault) {
   throw UserError(file + ": cannot be written: " + fault);
@@ -59,7 +61,8 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& file) : file_(file), target_(target_of(file)) {
     static std::atomic<unsigned> count{0};
-    const std::string name = ".causticl-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".tmp";
+    const std::string name =
+        temporary_prefix + std::to_string(getpid()) + "-" + std::to_string(count++) + temporary_extension;
     path_ = target_.parent_path() / name;
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(file, std::strerror(errno));
@@ -114,6 +117,14 @@ void write_file(const std::string& file, const std::string& bytes) {
   TemporaryFile temporary(file);
   temporary.write(bytes);
   temporary.rename_to_target();
+}
+
+bool is_left_half_written(const fs::path& file) {
+  if (!file.filename().string().starts_with(temporary_prefix) || file.extension() != temporary_extension)
+    return false;
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
 }  // namespace causticl

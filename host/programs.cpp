@@ -80,10 +80,11 @@ void Programs::build(Build& build) {
     launch_once(device_, program);
     build.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     build.promise.set_value(program);
-    device_.store_compiled();
   } catch (...) {
     build.promise.set_exception(std::current_exception());
+    return;
   }
+  device_.store_compiled();
 }
 
 cl::Kernel Programs::kernel(const std::string& pass, const char* name) {

@@ -52,19 +52,28 @@ RunFolder::RunFolder(const fs::path& parent, std::uintmax_t room) {
   if (!error && space.available < room)
     throw UserError(parent.string() + ": there are " + std::to_string(space.available >> 20) +
                     " MiB left, and kernels take up to " + std::to_string(room >> 20));
-  remove_left_behind(parent);
+  try {
+    remove_left_behind(parent);
+  } catch (const fs::filesystem_error&) {
+    // Another process removes the same ones.
+  }
   std::string name = (parent / (std::string(prefix) + "XXXXXX")).string();
   if (!mkdtemp(name.data()))
     throw UserError(parent.string() + ": cannot be written to: " + std::strerror(errno));
   path_ = name;
   lock_ = open((path_ / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
+  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  // Without the lock another process would take the folder for one left behind.
+  const std::string fault = std::strerror(errno);
+  if (lock_ >= 0) close(lock_);
+  fs::remove_all(path_, error);
+  throw UserError(path_.string() + ": cannot be locked: " + fault);
 }
 
 RunFolder::~RunFolder() {
   std::error_code error;
   fs::remove_all(path_, error);
-  if (lock_ >= 0) close(lock_);
+  close(lock_);
 }
 
 }  // namespace causticl

@@ -140,10 +140,14 @@ void SelftestProcesses::help(const std::string& spec, bool keep_kernels, int row
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a kernel that does not end shall not outlive who asked for it
 #endif
   try {
-    KernelCache kernels(keep_kernels);
+    // Made with the first group: a device that needs no helpers gives them none.
+    std::optional<KernelCache> kernels;
     std::optional<Device> device;
     while (const auto group = take_group(groups_out_)) {
-      if (!device) device.emplace(find_device(spec), 0, &kernels);
+      if (!device) {
+        kernels.emplace(keep_kernels);
+        device.emplace(find_device(spec), 0, &*kernels);
+      }
       for (const std::size_t i : groups_[*group])
         if (!send(rows, i, run_check(*device, checks_[i], options_).result)) _exit(1);
     }

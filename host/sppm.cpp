@@ -38,7 +38,6 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   params_.photon_count = static_cast<uint>(spec_.photons);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
-  params_.segment = static_cast<float>(segment_share * device_scene.extent);
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
   visible_points_ =
@@ -83,6 +82,7 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   constexpr double wanted = 12;
   constexpr uint longest_side = 64;
   Params params = params_;
+  params.segment = static_cast<float>(segment_share * extent);
   const uint longer = std::max(params.width, params.height);
   params.width = std::max(1u, std::min(longest_side, longer) * params.width / longer);
   params.height = std::max(1u, std::min(longest_side, longer) * params.height / longer);
@@ -136,7 +136,11 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
   emitted_ += with_photons_ ? params_.photon_count : 0;
-  photon_map_.sort(2 * std::sqrt(schedule_radius2_));
+  const double cell = 2 * std::sqrt(schedule_radius2_);
+  photon_map_.sort(cell);
+  // Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
+  params_.segment =
+      static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 2 * cell));
 
   const std::size_t pixels = film_.pixels();
   for (std::size_t first = 0; first < pixels; first += chunk_pixels_) {

@@ -75,12 +75,15 @@ TEST_CASE("two processes with one folder, and some that were killed") {
   const std::string path = folder.path("");
   const Environment environment = kept_in(folder);
   // Killed while kernels are compiled and stored: at some time, which is not the same in any two runs.
+  int hit = 0;
   for (const int milliseconds : {300, 900, 2000, 3500}) {
     Process process(render_to("killed.pfm"), path, Process::Stream::pipe, environment);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     process.send(SIGKILL);
-    process.wait();
+    const Finished killed = process.wait();
+    hit += killed.signal == SIGKILL;
   }
+  CHECK(hit >= 2);
   Process one(render_to("one.pfm"), path, Process::Stream::pipe, environment);
   Process two(render_to("two.pfm"), path, Process::Stream::pipe, environment);
   for (Process* process : {&one, &two}) {
@@ -93,6 +96,27 @@ TEST_CASE("two processes with one folder, and some that were killed") {
   CHECK_THAT(third.errors, !Contains("damaged"));
   CHECK(bytes_of(folder.path("one.pfm")) == bytes_of(folder.path("two.pfm")));
   CHECK(bytes_of(folder.path("one.pfm")) == bytes_of(folder.path("three.pfm")));
+}
+
+TEST_CASE("kernels are kept where the environment says") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("");
+  const auto run = [&](const Environment& environment) {
+    check_success(run_causticl(render_to("a.pfm"), path, environment));
+  };
+  run({{"CAUSTICL_CACHE_DIR", ""}, {"XDG_CACHE_HOME", folder.path("xdg")}, {"POCL_CACHE_DIR", ""}});
+  CHECK(names_in(folder.path("xdg/causticl")).size() == 5);
+  run({{"CAUSTICL_CACHE_DIR", ""},
+       {"XDG_CACHE_HOME", "xdg"},
+       {"HOME", folder.path("home")},
+       {"POCL_CACHE_DIR", ""}});
+  CHECK(names_in(folder.path("home/.cache/causticl")).size() == 5);
+  run({{"CAUSTICL_CACHE_DIR", "relative"}, {"POCL_CACHE_DIR", ""}});
+  CHECK(names_in(folder.path("relative")).size() == 5);
+  // A user who has a folder for PoCL has it filled, and nothing else.
+  run({{"CAUSTICL_CACHE_DIR", folder.path("own")}, {"POCL_CACHE_DIR", folder.path("pocl")}});
+  CHECK(names_in(folder.path("own")).empty());
+  CHECK(!names_in(folder.path("pocl")).empty());
 }
 
 TEST_CASE("a folder that cannot be written to is a note, not an end") {

@@ -102,8 +102,10 @@ TEST_CASE("above its limit a store forgets what was not used for longest, and wh
   }
   CHECK(store.load("0", damage));  // the oldest is now the one used last
   const std::string old_half = folder.write(".causticl-1-0.tmp", "half"),
-                    new_half = folder.write("b.tmp", "half");
+                    new_half = folder.write(".causticl-1-1.tmp", "half"),
+                    another = folder.write("b.tmp", "of another program");
   age(old_half, 2);
+  age(another, 2);
   store.save("3", kilobyte);
   CHECK(fs::exists(store.file_of("0")));
   CHECK(!fs::exists(store.file_of("1")));
@@ -111,6 +113,7 @@ TEST_CASE("above its limit a store forgets what was not used for longest, and wh
   CHECK(fs::exists(store.file_of("3")));
   CHECK(!fs::exists(old_half));
   CHECK(fs::exists(new_half));
+  CHECK(fs::exists(another));
 }
 
 TEST_CASE("the folder of a run is its own and goes with it; those left behind go with the next") {
