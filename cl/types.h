@@ -258,11 +258,12 @@ CHECK_SIZE(FilmLayers, 72);
 
 // How far a pixel's luminance may be off.
 typedef struct {
-  float luminance;  // the mean of its estimates
-  float noise;      // standard deviation of that
-  float bias;       // absolute
+  float luminance;     // the mean of its estimates
+  float noise;         // standard deviation of that, such that over a picture its distribution is right
+  float pooled_noise;  // the same, such that it is right of this pixel: see pixel_error of pass_film.cl
+  float bias;          // absolute
 } PixelError;
-CHECK_SIZE(PixelError, 12);
+CHECK_SIZE(PixelError, 16);
 
 // The mark of visible points and photons that lie in the medium: a photon's `normal` holds a direction then
 // (direction_pack).

@@ -16,12 +16,14 @@ const std::vector<float>* find(const Picture& picture, const std::string& name) 
 }
 
 std::vector<PixelError> errors_of(const Picture& picture) {
-  const auto* noise = find(picture, "error.noise");
-  const auto* bias = find(picture, "error.bias");
-  std::vector<PixelError> errors;
-  if (!noise || !bias) return errors;
-  for (std::size_t i = 0; i < noise->size(); ++i)
-    errors.push_back({static_cast<float>(luminance(&picture.rgb[3 * i])), (*noise)[i], (*bias)[i]});
+  std::vector<PixelError> errors(picture.rgb.size() / 3);
+  for (const auto& kind : pixel_error_kinds) {
+    const auto* values = find(picture, kind.channel);
+    if (!values) return {};
+    for (std::size_t i = 0; i < errors.size(); ++i) errors[i].*kind.value = (*values)[i];
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i].luminance = static_cast<float>(luminance(&picture.rgb[3 * i]));
   return errors;
 }
 
@@ -37,7 +39,7 @@ std::optional<Calibration> calibration_of(const Picture& picture, const Picture&
   for (std::size_t i = 0; i < errors.size(); ++i) {
     PixelError error = errors[i];
     if (!reference_errors.empty()) {
-      error.noise = std::hypot(error.noise, reference_errors[i].noise);
+      error.pooled_noise = std::hypot(error.pooled_noise, reference_errors[i].pooled_noise);
       // Both are blurred to the same side: the reference less.
       error.bias = std::fabs(error.bias - reference_errors[i].bias);
     }

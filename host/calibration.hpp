@@ -8,7 +8,7 @@
 namespace causticl {
 
 struct Calibration {
-  double estimated = 0;  // the picture's error by its channels error.noise and error.bias, at `confidence`
+  double estimated = 0;  // the picture's error by its channels, at `confidence`
   // The share of pixels that are off by less than their own bound at `confidence`, of those that are off or
   // might be: a black background is no merit.
   double covered = 0;

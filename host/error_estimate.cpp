@@ -68,9 +68,9 @@ double bound_of(const std::vector<RelativeError>& errors, double confidence) {
 }  // namespace
 
 double error_bound(const PixelError& pixel, double confidence) {
-  const double size = std::max<double>(pixel.noise, pixel.bias);
+  const double size = std::max<double>(pixel.pooled_noise, pixel.bias);
   if (!(size > 0)) return 0;
-  const RelativeError error{pixel.noise / size, pixel.bias / size};
+  const RelativeError error{pixel.pooled_noise / size, pixel.bias / size};
   return size * inverse([&](double bound) { return probability_below(error, bound); }, confidence);
 }
 
@@ -87,44 +87,55 @@ std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels,
 void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels) {
   pixels_ = pixels;
   last_ = picture_error(pixels, confidence_);
-  if (last_ && last_->noise > 0)
-    noises_.emplace_back(std::log(static_cast<double>(passes)), std::log(last_->noise));
+  if (last_)
+    looks_.push_back({std::log(static_cast<double>(passes)), std::log(last_->error), std::log(last_->noise),
+                      std::log(last_->bias)});
   passes_ = passes;
 }
 
-double ErrorTrend::noise_rate() const {
-  if (noises_.empty()) return expected_.noise;
-  // A line through the latest noise, by least squares; the expected rate is one more point, an octave off.
-  const auto [now, noise] = noises_.back();
+double ErrorTrend::rate_of(double Look::*part, double expected) const {
+  if (looks_.empty() || !std::isfinite(looks_.back().*part)) return expected;
+  // A line through the latest look, by least squares; the expected rate is one more point, an octave off.
+  const Look& now = looks_.back();
   constexpr double octave = std::numbers::ln2;
-  double sum = octave * octave, weighted = sum * expected_.noise;
-  for (const auto& [passes, then] : noises_) {
-    const double distance = now - passes;
-    if (distance > 3.01 * octave) continue;
+  double sum = octave * octave, weighted = sum * expected;
+  for (const Look& then : looks_) {
+    const double distance = now.passes - then.passes;
+    if (distance > 3.01 * octave || !std::isfinite(then.*part)) continue;
     sum += distance * distance;
-    weighted += distance * (then - noise);
+    weighted += distance * (then.*part - now.*part);
   }
   return weighted / sum;
 }
 
+ErrorRates ErrorTrend::rates() const {
+  return {std::max(rate_of(&Look::noise, expected_.noise), 0.0),
+          std::max(rate_of(&Look::bias, expected_.bias), expected_.bias / 2)};
+}
+
 double ErrorTrend::passes_until(double wanted) const {
+  if (last_->error <= wanted) return static_cast<double>(passes_);
   const auto errors = relative_errors(pixels_);
-  const double rate = noise_rate();
-  const auto reached = [&](double times) {
-    const double noise = std::pow(times, -rate), bias = std::pow(times, -expected_.bias);
+  const ErrorRates now = rates();
+  const auto after = [&](double times) {
+    const double noise = std::pow(times, -now.noise), bias = std::pow(times, -now.bias);
     auto then = errors;
     for (auto& error : then) error = {error.noise * noise, error.bias * bias};
-    return share_below(then, wanted) >= confidence_;
+    return then;
   };
+  const auto reached = [&](double times) { return share_below(after(times), wanted) >= confidence_; };
   double low = 1, high = 1;
-  if (reached(low)) return static_cast<double>(passes_);
   for (; !reached(high); low = high, high *= 8)
     if (high > 1e12) return std::numeric_limits<double>::infinity();
   while (high > low * 1.005) {
     const double middle = std::sqrt(low * high);
     (reached(middle) ? high : low) = middle;
   }
-  return high * static_cast<double>(passes_);
+  constexpr double octaves = 4;
+  const double expected =
+      std::log2(last_->error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
+  const double rate = std::max(rate_of(&Look::error, expected), 0.01);
+  return std::sqrt(high * std::pow(last_->error / wanted, 1 / rate)) * static_cast<double>(passes_);
 }
 
 }  // namespace causticl

@@ -19,15 +19,24 @@ struct PictureError {
   double bias = 0;   // as if there were no noise
 };
 
-/// What a pixel's error is below with probability `confidence`, in luminance, if its noise is distributed
-/// normally about its bias.
+/// The parts of a pixel's error, and the channels of EXR files that hold them.
+struct PixelErrorKind {
+  const char* channel;
+  float PixelError::*value;
+};
+constexpr PixelErrorKind pixel_error_kinds[] = {{"error.noise", &PixelError::noise},
+                                                {"error.pooled_noise", &PixelError::pooled_noise},
+                                                {"error.bias", &PixelError::bias}};
+
+/// What a pixel's error is below with probability `confidence`, in luminance, if its pooled noise is
+/// distributed normally about its bias.
 double error_bound(const PixelError& pixel, double confidence);
 
 /// The error of the picture from those of its pixels, or of a sample of them: each is off by its bias and by
 /// normally distributed noise. None for a black picture.
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence);
 
-/// How noise and bias go down: each ~ passes^-rate.
+/// How a part of the error goes down: it ~ passes^-rate.
 struct ErrorRates {
   double noise = 0.5, bias = 0;
 };
@@ -50,22 +59,31 @@ class ErrorTrend {
   /// The error of the picture when last added; none of a black picture.
   const std::optional<PictureError>& last() const { return last_; }
 
-  /// The rate of the noise as measured over the last three octaves of passes; the expected one weighs as much
-  /// as one.
-  double noise_rate() const;
+  /// The rate of the noise, or of the bias, as measured over the last three octaves of passes; the expected
+  /// one weighs as much as one. That of the bias is half the expected one at least, since noise is part of
+  /// it.
+  ErrorRates rates() const;
 
-  /// Passes after which the error will be `wanted`, counted from the first: by every pixel's noise and bias,
-  /// going on at noise_rate() and the expected rate of the bias. Infinite where there is no end in sight.
-  /// Needs last().
+  /// Passes after which the error will be `wanted`, counted from the first. What noise is left in the bias
+  /// makes that last too long where every pixel's noise and bias go on at their rates; where the error goes
+  /// on as it went, it ends too soon, since bias goes down more slowly and remains. The answer is the
+  /// geometric mean of the two. Infinite where there is no end in sight. Needs last().
   double passes_until(double wanted) const;
 
  private:
+  /// The logarithms of passes, of the error and of its parts, at a look.
+  struct Look {
+    double passes, error, noise, bias;
+  };
+
   ErrorRates expected_;
   double confidence_;
   std::optional<PictureError> last_;
   std::uint64_t passes_ = 0;
-  std::vector<PixelError> pixels_;                 // the last ones
-  std::vector<std::pair<double, double>> noises_;  // logarithms of passes and of the noise alone
+  std::vector<PixelError> pixels_;  // the last ones
+  std::vector<Look> looks_;
+
+  double rate_of(double Look::*part, double expected) const;
 };
 
 }  // namespace causticl

@@ -43,15 +43,13 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
   return metadata;
 }
 
-/// error.noise and error.bias: of the luminance of each pixel.
+/// Those of the luminance of each pixel.
 void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors) {
-  Channel noise{"error.noise", {}}, bias{"error.bias", {}};
-  for (const auto& error : errors) {
-    noise.values.push_back(error.noise);
-    bias.values.push_back(error.bias);
+  for (const auto& kind : pixel_error_kinds) {
+    Channel channel{kind.channel, {}};
+    for (const auto& error : errors) channel.values.push_back(error.*kind.value);
+    channels.push_back(std::move(channel));
   }
-  channels.push_back(std::move(noise));
-  channels.push_back(std::move(bias));
 }
 
 /// When outputs are rewritten while passes go on.

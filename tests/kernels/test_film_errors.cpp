@@ -22,7 +22,7 @@ std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint w
 
 /// The same as the kernel's comment says, by the definition.
 struct Oracle {
-  double noise, bias;
+  double noise, pooled_noise, bias;
 };
 Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes) {
   const int height = static_cast<int>(film.size()) / width;
@@ -33,20 +33,20 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
         add(film[static_cast<std::size_t>(j) * width + i]);
     return static_cast<double>(count);
   };
-  double variance = 0, sum = 0, squares = 0;
-  const double small = over_window(1, [&](const FilmPixel& p) {
+  const auto variance_of = [&](const FilmPixel& p) {
     const double n = passes - p.left_out;
-    variance += n > 1 ? p.spread / (n * (n - 1)) : p.spread;
+    return n > 1 ? p.spread / (n * (n - 1)) : p.spread;
+  };
+  double variance = 0, even = 0, odd = 0;
+  const double small = over_window(1, [&](const FilmPixel& p) { variance += variance_of(p); });
+  const double large = over_window(2, [&](const FilmPixel& p) {
+    even += p.blur[0];
+    odd += p.blur[1];
   });
-  const double even = (passes + 1) / 2, odd = std::max(passes / 2, 1u);
-  const double large = over_window(3, [&](const FilmPixel& p) {
-    const double square = p.blur[0] / even * (p.blur[1] / odd);
-    sum += square;
-    squares += square * square;
-  });
-  const double mean = sum / large;
-  const double above = mean - std::sqrt(std::max(0.0, squares / large - mean * mean) / large);
-  return {std::sqrt(variance / small), 2 * std::sqrt(std::max(0.0, above))};
+  const double square = even / (large * ((passes + 1) / 2)) * (odd / (large * std::max(passes / 2, 1u)));
+  const double own = variance_of(film[static_cast<std::size_t>(y) * width + x]);
+  return {std::sqrt(0.97 * own + 0.03 * variance / small), std::sqrt(variance / small),
+          2 * std::sqrt(std::max(0.0, square))};
 }
 
 double normal(RandomInputs& random) { return std::normal_distribution<double>()(random.engine); }
@@ -71,7 +71,8 @@ TEST_CASE("errors of pixels equal those in double precision, at borders too") {
       const Oracle expected = oracle(film, width, i % width, i / width, passes);
       CAPTURE(i, random.seed);
       CHECK(errors[k].noise == Approx(expected.noise).epsilon(1e-5));
-      // Where the mean is next to its standard error the difference cancels.
+      CHECK(errors[k].pooled_noise == Approx(expected.pooled_noise).epsilon(1e-5));
+      // A mean next to zero cancels.
       CHECK(errors[k].bias == Approx(expected.bias).epsilon(1e-3).margin(1e-4));
       const double n = std::max(1.0, static_cast<double>(passes) - film[i].left_out);
       CHECK(errors[k].luminance ==
@@ -108,18 +109,19 @@ kernel void add_samples(global const float2 *samples, global FilmPixel *film, vo
     run_kernel(built, "add_samples", width * height, in, film, counters, width * height, passes);
     const auto errors =
         device_errors(test_device().download<FilmPixel>(film, width * height), width, passes, 1);
-    double noise2 = 0, mean_bias = 0;
+    double noise2 = 0, pooled2 = 0, mean_bias = 0;
     for (const auto& error : errors) {
       noise2 += error.noise * error.noise / errors.size();
+      pooled2 += error.pooled_noise * error.pooled_noise / errors.size();
       mean_bias += error.bias / errors.size();
     }
     CAPTURE(biased, random.seed);
     CHECK(std::sqrt(noise2) == Approx(sigma / std::sqrt(passes)).epsilon(0.02));
+    CHECK(std::sqrt(pooled2) == Approx(sigma / std::sqrt(passes)).epsilon(0.02));
     // Noise of the difference alone must not pass for a bias of more than a small part of the noise.
-    // What is taken off for the standard error makes a bias of three times the noise an eighth smaller.
     if (biased)
-      CHECK(mean_bias == Approx(bias * 7 / 8).epsilon(0.05));
+      CHECK(mean_bias == Approx(bias).epsilon(0.03));
     else
-      CHECK(mean_bias < 0.4 * sigma / std::sqrt(passes));
+      CHECK(mean_bias < 0.3 * sigma / std::sqrt(passes));
   }
 }

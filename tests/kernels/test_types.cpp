@@ -108,6 +108,7 @@ const std::vector<Field> fields{
     FIELD(FilmLayers, low),
     FIELD(PixelError, luminance),
     FIELD(PixelError, noise),
+    FIELD(PixelError, pooled_noise),
     FIELD(PixelError, bias),
     FIELD(VisiblePoint, position),
     FIELD(VisiblePoint, normal),

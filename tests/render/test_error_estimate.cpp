@@ -50,12 +50,12 @@ TEST_CASE("the error of a picture is what its share of pixels stays below") {
 }
 
 TEST_CASE("noise alone and bias alone are what they would be without the other") {
-  std::vector<PixelError> pixels(1000, {2, 0.1f, 0});
+  std::vector<PixelError> pixels(1000, {2, 0.1f, 0, 0});
   auto error = picture_error(pixels, 0.9);
   CHECK(error->error == Approx(0.05 * 1.6449).epsilon(6e-3));
   CHECK(error->noise == error->error);
   CHECK(error->bias == 0);
-  for (auto& pixel : pixels) pixel = {2, 0, 0.1f};
+  for (auto& pixel : pixels) pixel = {2, 0, 0, 0.1f};
   error = picture_error(pixels, 0.9);
   CHECK(error->error == Approx(0.05).epsilon(6e-3));
   CHECK(error->noise == 0);
@@ -64,36 +64,36 @@ TEST_CASE("noise alone and bias alone are what they would be without the other")
 TEST_CASE("a black picture has no known error, and one without noise has none") {
   CHECK(!picture_error(std::vector<PixelError>(10), 0.9));
   CHECK(!picture_error({}, 0.9));
-  CHECK(picture_error(std::vector<PixelError>(10, {1, 0, 0}), 0.9)->error == 0);
+  CHECK(picture_error(std::vector<PixelError>(10, {1, 0, 0, 0}), 0.9)->error == 0);
 }
 
 TEST_CASE("dark pixels are judged against a tenth of the mean") {
-  std::vector<PixelError> pixels(1000, {1, 0, 0});
-  for (std::size_t i = 0; i < 500; ++i) pixels[i] = {1e-6f, 0, 0.01f};
+  std::vector<PixelError> pixels(1000, {1, 0, 0, 0});
+  for (std::size_t i = 0; i < 500; ++i) pixels[i] = {1e-6f, 0, 0, 0.01f};
   // 0.01 against a tenth of the mean of 0.5.
   CHECK(picture_error(pixels, 0.9)->error == Approx(0.2).epsilon(6e-3));
 }
 
 TEST_CASE("a trend follows the rate that is measured, and starts from the one that is expected") {
   const auto noisy = [](double noise) {
-    return std::vector<PixelError>(100, {1, static_cast<float>(noise), 0});
+    return std::vector<PixelError>(100, {1, static_cast<float>(noise), 0, 0});
   };
   ErrorTrend trend({0.5, 0}, 0.9);
   CHECK(!trend.last());
   trend.add(2, noisy(0.4));
   const double error = trend.last()->error;
   CHECK(error == Approx(0.4 * 1.6449).epsilon(6e-3));
-  CHECK(trend.noise_rate() == Approx(0.5));
+  CHECK(trend.rates().noise == Approx(0.5));
   CHECK(trend.passes_until(error / 2) == Approx(8).epsilon(0.01));
   CHECK(trend.passes_until(error * 1.1) == 2);
   for (const std::uint64_t passes : {4, 8, 16, 32, 64, 128})
     trend.add(passes, noisy(0.4 * std::pow(passes / 2.0, -0.35)));
-  CHECK(trend.noise_rate() == Approx(0.35).margin(0.012));
+  CHECK(trend.rates().noise == Approx(0.35).margin(0.012));
   CHECK(trend.passes_until(trend.last()->error / 2) == Approx(128 * std::pow(2, 1 / 0.35)).epsilon(0.08));
 }
 
 TEST_CASE("bias goes down at its own rate, and what does not go down never ends") {
-  const std::vector<PixelError> biased(100, {1, 0, 0.1f});
+  const std::vector<PixelError> biased(100, {1, 0, 0, 0.1f});
   ErrorTrend trend({0.35, 0.2}, 0.9);
   trend.add(10, biased);
   CHECK(trend.passes_until(0.05) == Approx(10 * std::pow(2, 1 / 0.2)).epsilon(0.02));
@@ -102,7 +102,7 @@ TEST_CASE("bias goes down at its own rate, and what does not go down never ends"
   CHECK(constant.passes_until(0.05) == INFINITY);
   // Between the two: noise falls away, and the bias is left.
   ErrorTrend both({0.5, 0.2}, 0.9);
-  both.add(10, std::vector<PixelError>(100, {1, 0.1f, 0.1f}));
+  both.add(10, std::vector<PixelError>(100, {1, 0.1f, 0, 0.1f}));
   const double half = both.passes_until(both.last()->error / 2);
   CHECK((half > 10 * std::pow(2, 1 / 0.5) && half < 10 * std::pow(2, 1 / 0.2)));
 }

@@ -102,7 +102,7 @@ TEST_CASE("a picture that knows its error is held to it") {
       noise.values.push_back(sigma);
       bias.values.push_back(0);
     }
-    picture.channels = {noise, bias};
+    picture.channels = {noise, {"error.pooled_noise", noise.values}, bias};
     return picture;
   };
   const Picture truth = picture_of(100, 80, waves), picture = noisy(0.05f);
@@ -128,8 +128,9 @@ TEST_CASE("a bias that is stated widens the bound to its side") {
   Picture truth = uniform(1, 1, 1), picture = uniform(1.1, 1.1, 1.1);
   const std::size_t pixels = picture.rgb.size() / 3;
   picture.channels = {{"error.noise", std::vector<float>(pixels, 0)},
+                      {"error.pooled_noise", std::vector<float>(pixels, 0)},
                       {"error.bias", std::vector<float>(pixels, 0.11f)}};
   CHECK(compare_pictures(picture, truth).calibration->covered == 1);
-  picture.channels[1].values.assign(pixels, 0.09f);
+  picture.channels[2].values.assign(pixels, 0.09f);
   CHECK(compare_pictures(picture, truth).calibration->covered == 0);
 }
