@@ -7,9 +7,9 @@
 
 // What of a pixel's variance, in the picture's error, is that of its neighbours. Rare bright paths have not been seen in
 // most pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
-// With this share the errors of pictures are right on average where path tracing found the bright paths of ten scenes,
-// and those of photon mapping a tenth too large; with none a sixth too small and 6% too large (scripts/calibration.sh).
-#define NEIGHBOURS_SHARE 0.03f
+// With none of it the estimated errors of path-traced pictures were a sixth too small, and those of photon-mapped ones 6%
+// too large; with 0.05 right, and 10% too large (geometric means over 4 and 7 scenes, as in scripts/calibration.sh).
+#define NEIGHBOURS_SHARE 0.02f
 
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
 // the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of surfaces,

@@ -93,15 +93,16 @@ void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels
   passes_ = passes;
 }
 
-double ErrorTrend::rate_of(double Look::*part, double expected) const {
+/// `weight`: of the expected rate, beside that of one look an octave before the last.
+double ErrorTrend::rate_of(double Look::*part, double expected, double weight) const {
   if (looks_.empty() || !std::isfinite(looks_.back().*part)) return expected;
-  // A line through the latest look, by least squares; the expected rate is one more point, an octave off.
+  // A line through the latest look, by least squares.
   const Look& now = looks_.back();
   constexpr double octave = std::numbers::ln2;
-  double sum = octave * octave, weighted = sum * expected;
+  double sum = weight * octave * octave, weighted = sum * expected;
   for (const Look& then : looks_) {
     const double distance = now.passes - then.passes;
-    if (distance > 3.01 * octave || !std::isfinite(then.*part)) continue;
+    if (distance > 2.01 * octave || then.passes < 1.99 * octave || !std::isfinite(then.*part)) continue;
     sum += distance * distance;
     weighted += distance * (then.*part - now.*part);
   }
@@ -109,8 +110,8 @@ double ErrorTrend::rate_of(double Look::*part, double expected) const {
 }
 
 ErrorRates ErrorTrend::rates() const {
-  return {std::max(rate_of(&Look::noise, expected_.noise), 0.0),
-          std::max(rate_of(&Look::bias, expected_.bias), expected_.bias / 2)};
+  return {std::max(rate_of(&Look::noise, expected_.noise, 0.5), 0.0),
+          std::max(rate_of(&Look::bias, expected_.bias, 2), expected_.bias / 2)};
 }
 
 double ErrorTrend::passes_until(double wanted) const {
@@ -134,7 +135,7 @@ double ErrorTrend::passes_until(double wanted) const {
   constexpr double octaves = 4;
   const double expected =
       std::log2(last_->error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
-  const double rate = std::max(rate_of(&Look::error, expected), 0.01);
+  const double rate = std::max(rate_of(&Look::error, expected, 0.5), 0.01);
   return std::sqrt(high * std::pow(last_->error / wanted, 1 / rate)) * static_cast<double>(passes_);
 }
 

@@ -59,9 +59,9 @@ class ErrorTrend {
   /// The error of the picture when last added; none of a black picture.
   const std::optional<PictureError>& last() const { return last_; }
 
-  /// The rate of the noise, or of the bias, as measured over the last three octaves of passes; the expected
-  /// one weighs as much as one. That of the bias is half the expected one at least, since noise is part of
-  /// it.
+  /// The rates of the noise and of the bias as measured over the last two octaves of passes, from the fourth
+  /// pass on: of fewer the spread tells too little. The expected ones count as well, that of the bias for
+  /// more, since noise is part of what is measured; and it is half the expected one at least.
   ErrorRates rates() const;
 
   /// Passes after which the error will be `wanted`, counted from the first. What noise is left in the bias
@@ -83,7 +83,7 @@ class ErrorTrend {
   std::vector<PixelError> pixels_;  // the last ones
   std::vector<Look> looks_;
 
-  double rate_of(double Look::*part, double expected) const;
+  double rate_of(double Look::*part, double expected, double weight) const;
 };
 
 }  // namespace causticl

@@ -45,7 +45,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   });
   const double square = even / (large * ((passes + 1) / 2)) * (odd / (large * std::max(passes / 2, 1u)));
   const double own = variance_of(film[static_cast<std::size_t>(y) * width + x]);
-  return {std::sqrt(0.97 * own + 0.03 * variance / small), std::sqrt(variance / small),
+  return {std::sqrt(0.98 * own + 0.02 * variance / small), std::sqrt(variance / small),
           2 * std::sqrt(std::max(0.0, square))};
 }
 
