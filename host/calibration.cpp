@@ -9,6 +9,8 @@
 namespace causticl {
 namespace {
 
+constexpr double rounding_of_means = 1e-6;  // relative: a few roundings of a float
+
 const std::vector<float>* find(const Picture& picture, const std::string& name) {
   const auto found = std::find_if(picture.channels.begin(), picture.channels.end(),
                                   [&](const Channel& channel) { return channel.name == name; });
@@ -46,8 +48,11 @@ std::optional<Calibration> calibration_of(const Picture& picture, const Picture&
     const double difference =
         std::fabs(static_cast<double>(error.luminance) - luminance(&reference.rgb[3 * i]));
     const double bound = error_bound(error, confidence);
-    uncertain += bound > 0 || difference > 0;
-    covered += (bound > 0 || difference > 0) && difference <= bound;
+    // A sky that is seen directly is known, but for what the sums of different numbers of passes round.
+    const double rounding = rounding_of_means * error.luminance;
+    if (!(bound > 0 || difference > rounding)) continue;
+    ++uncertain;
+    covered += difference <= bound + rounding;
   }
   return Calibration{estimate->error, uncertain > 0 ? covered / uncertain : 1};
 }

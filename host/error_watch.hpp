@@ -10,6 +10,10 @@
 
 namespace causticl {
 
+/// Passes after which the trend of the error can be told: it needs two octaves, of which the first begins at
+/// the fourth pass (see ErrorTrend::rates).
+constexpr std::uint64_t trend_known_from = 16;
+
 class ErrorWatch {
  public:
   /// `wanted` is the error that passes_to_wanted() is asked for; none: it is not.
@@ -23,9 +27,14 @@ class ErrorWatch {
   /// The error of the picture at the last look; none before the second pass, and none of a black picture.
   const std::optional<PictureError>& last() const { return trend_.last(); }
 
-  /// Further passes after `passes` until the error is half that of the last look, and until it is the wanted
-  /// one; need last().
-  double passes_to_half(std::uint64_t passes) const { return further(until_half_, passes); }
+  /// Further passes after `passes` until the error is half that of the last look; none while the trend is not
+  /// known, nor for an error of nothing.
+  std::optional<double> passes_to_half(std::uint64_t passes) const {
+    if (!last() || !(last()->error > 0) || passes < trend_known_from) return {};
+    return further(until_half_, passes);
+  }
+
+  /// The same until it is the wanted one, as a guess at first; needs last().
   double passes_to_wanted(std::uint64_t passes) const { return further(until_wanted_, passes); }
 
   /// The error now.

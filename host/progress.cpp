@@ -73,7 +73,8 @@ std::string progress_text(const Progress& now, double photons_per_second, double
                                     clock_time(now.seconds) + " elapsed",
                                     clock_time(now.remaining) + " left"};
   if (now.error)
-    parts.push_back("error " + percentage(*now.error) + ", half of it in " + clock_time(now.seconds_to_half));
+    parts.push_back("error " + percentage(*now.error) +
+                    (now.seconds_to_half ? ", half of it in " + clock_time(*now.seconds_to_half) : ""));
   if (now.photons) parts.push_back(si_number(photons_per_second) + " photons/s");
   parts.push_back(si_number(rays_per_second) + " rays/s");
 

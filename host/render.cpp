@@ -218,11 +218,11 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
       const double per_pass = seconds_since(loop_start) / static_cast<double>(pass + 1);
       double remaining = per_pass * static_cast<double>(wanted - pass - 1);
       if (options.time_limit) remaining = std::min(remaining, std::max(0.0, *options.time_limit - elapsed));
-      Progress now{pass + 1, wanted, elapsed, remaining, {}, 0, totals.photons_emitted, totals.rays};
+      Progress now{pass + 1, wanted, elapsed, remaining, {}, {}, totals.photons_emitted, totals.rays};
       now.pass_seconds = statistics.pass_seconds;
       if (watch.last()) {
         now.error = watch.last()->error;
-        now.seconds_to_half = per_pass * watch.passes_to_half(pass + 1);
+        if (const auto further = watch.passes_to_half(pass + 1)) now.seconds_to_half = per_pass * *further;
         if (options.wanted_error)
           now.remaining = std::min(remaining, per_pass * watch.passes_to_wanted(pass + 1));
       }
@@ -253,8 +253,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     }
   }
 
-  if (watch.last() && watch.last()->error > 0)
-    statistics.passes_to_half_error = watch.passes_to_half(statistics.passes);
+  statistics.passes_to_half_error = watch.passes_to_half(statistics.passes);
   const double loop_seconds = std::max(seconds_since(loop_start) + integrator->early_seconds(), 1e-9);
   statistics.rays = totals.rays;
   statistics.stored_photons = totals.photons_stored_last_pass;

@@ -46,11 +46,12 @@ struct RenderOptions {
 
 /// Where a render stands, after each pass.
 struct Progress {
-  std::uint64_t pass = 0, passes = 0;   // done, wanted
-  double seconds = 0;                   // since the start
-  double remaining = 0;                 // seconds, by the time per pass so far and the limits
-  std::optional<double> error;          // estimated, of the picture; none where it is not known yet
-  double seconds_to_half = 0;           // until half that error; infinite where there is no end in sight
+  std::uint64_t pass = 0, passes = 0;  // done, wanted
+  double seconds = 0;                  // since the start
+  double remaining = 0;                // seconds, by the time per pass so far and the limits
+  std::optional<double> error;         // estimated, of the picture; none where it is not known yet
+  // Until half that error; infinite where there is no end in sight, none while the trend is not known.
+  std::optional<double> seconds_to_half;
   std::uint64_t photons = 0, rays = 0;  // so far
   double pass_seconds = 0;              // of the passes alone, without start-up, writing and snapshots
 };
@@ -80,9 +81,9 @@ struct Statistics {
   double pass_seconds = 0;  // of the passes alone, without start-up, writing and snapshots
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
-  std::optional<PictureError> error;  // estimated; none after a single pass and of a black picture
-  double passes_to_half_error = 0;    // further ones, estimated; 0 without an error
-  double confidence = 0.9;            // share of pixels that `error` holds for
+  std::optional<PictureError> error;           // estimated; none after a single pass and of a black picture
+  std::optional<double> passes_to_half_error;  // further ones, estimated; none while the trend is not known
+  double confidence = 0.9;                     // share of pixels that `error` holds for
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
   std::uint64_t stored_photons = 0;     // in the last pass

@@ -173,7 +173,7 @@ std::string statistics_json(const Statistics& s) {
     object["error"] = s.error->error;
     object["error_noise"] = s.error->noise;
     object["error_bias"] = s.error->bias;
-    object["passes_to_half_error"] = s.passes_to_half_error;
+    if (s.passes_to_half_error) object["passes_to_half_error"] = *s.passes_to_half_error;
   }
   for (const auto& kind : fault_kinds) object[kind.key] = s.faults.*kind.count;
   // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.

@@ -30,7 +30,7 @@ std::string printed(Print print) {
 }
 
 Progress progress_at(std::uint64_t pass, double seconds) {
-  return {pass, 100, seconds, 10, {}, 0, pass * 1000000, pass * 3000000};
+  return {pass, 100, seconds, 10, {}, {}, pass * 1000000, pass * 3000000};
 }
 
 std::size_t line_count(const std::string& text) {
@@ -117,6 +117,7 @@ TEST_CASE("a narrow terminal keeps the pass and drops the rates") {
 TEST_CASE("the error and the time to half of it are shown once they are known") {
   Progress now = progress_at(25, 7);
   now.error = 0.0534;
+  CHECK_THAT(progress_text(now, 1e6, 3e6, 150), Contains("0:10 left, error 5.3%, 1.00 M photons/s"));
   now.seconds_to_half = 754;
   CHECK_THAT(progress_text(now, 1e6, 3e6, 150),
              Contains("0:10 left, error 5.3%, half of it in 12:34, 1.00 M photons/s"));

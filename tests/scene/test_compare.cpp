@@ -133,4 +133,11 @@ TEST_CASE("a bias that is stated widens the bound to its side") {
   CHECK(compare_pictures(picture, truth).calibration->covered == 1);
   picture.channels[2].values.assign(pixels, 0.09f);
   CHECK(compare_pictures(picture, truth).calibration->covered == 0);
+  // Half the pixels are known but for a rounding: only the others count.
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    if (i / 3 % 2) picture.rgb[i] = std::nextafter(truth.rgb[i], 2.0f);
+  for (std::size_t i = 1; i < pixels; i += 2) picture.channels[2].values[i] = 0;
+  CHECK(compare_pictures(picture, truth).calibration->covered == 0);
+  for (std::size_t i = 0; i < pixels; i += 2) picture.channels[2].values[i] = 0.11f;
+  CHECK(compare_pictures(picture, truth).calibration->covered == 1);
 }
