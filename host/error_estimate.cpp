@@ -15,27 +15,31 @@ struct RelativeError {
   double noise, bias;
 };
 
-std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels) {
+/// Of every `stride`-th pixel.
+std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels, std::size_t stride = 1) {
   double mean = 0;
   for (const auto& pixel : pixels) mean += pixel.luminance;
   mean /= static_cast<double>(std::max<std::size_t>(pixels.size(), 1));
   std::vector<RelativeError> errors;
   if (!(mean > 0)) return errors;
-  errors.reserve(pixels.size());
-  for (const auto& pixel : pixels) {
-    const double scale = std::max<double>(pixel.luminance, dark * mean);
-    errors.push_back({pixel.noise / scale, pixel.bias / scale});
+  errors.reserve(pixels.size() / stride + 1);
+  for (std::size_t i = 0; i < pixels.size(); i += stride) {
+    const double scale = std::max<double>(pixels[i].luminance, dark * mean);
+    errors.push_back({pixels[i].noise / scale, pixels[i].bias / scale});
   }
   return errors;
 }
 
-double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+/// The probability that a number, normally distributed, is x standard deviations above its mean or more. In
+/// single precision, which is a third of the time: shares are asked for to a thousandth.
+double above(double x) { return 0.5 * std::erfc(static_cast<float>(x / std::numbers::sqrt2)); }
 
 /// The probability of being off by less than `bound`.
 double probability_below(const RelativeError& error, double bound) {
   const auto [noise, bias] = error;
   if (!(noise > 0)) return bias <= bound ? 1 : 0;
-  return normal_distribution((bound - bias) / noise) - normal_distribution((-bound - bias) / noise);
+  if (bias == 0) return 1 - 2 * above(bound / noise);
+  return 1 - above((bound - bias) / noise) - above((bound + bias) / noise);
 }
 
 /// The expected share of pixels that are off by less than `bound`.
@@ -116,12 +120,15 @@ ErrorRates ErrorTrend::rates() const {
 
 double ErrorTrend::passes_until(double wanted) const {
   if (last_->error <= wanted) return static_cast<double>(passes_);
-  const auto errors = relative_errors(pixels_);
+  // What becomes of the error is asked for at every look, and a guess: half the pixels will do.
+  const auto errors = relative_errors(pixels_, 2);
+  const double error = bound_of(errors, confidence_);
+  wanted *= error / last_->error;
   const ErrorRates now = rates();
   const auto after = [&](double times) {
     const double noise = std::pow(times, -now.noise), bias = std::pow(times, -now.bias);
     auto then = errors;
-    for (auto& error : then) error = {error.noise * noise, error.bias * bias};
+    for (auto& pixel : then) pixel = {pixel.noise * noise, pixel.bias * bias};
     return then;
   };
   const auto reached = [&](double times) { return share_below(after(times), wanted) >= confidence_; };
@@ -133,10 +140,9 @@ double ErrorTrend::passes_until(double wanted) const {
     (reached(middle) ? high : low) = middle;
   }
   constexpr double octaves = 4;
-  const double expected =
-      std::log2(last_->error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
+  const double expected = std::log2(error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
   const double rate = std::max(rate_of(&Look::error, expected, 0.5), 0.01);
-  return std::sqrt(high * std::pow(last_->error / wanted, 1 / rate)) * static_cast<double>(passes_);
+  return std::sqrt(high * std::pow(error / wanted, 1 / rate)) * static_cast<double>(passes_);
 }
 
 }  // namespace causticl

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # Usage: scripts/overhead.sh [SCENE...]
-# Measures what the error estimate adds to a render, on the named scenes or on the Cornell box and the glass caustic:
-# pairs of renders, one by the kernels as they ship, one by a copy without the estimate (tests/bench/without_errors.patch).
-# Both must give the same picture to the bit. Prints the table of README: the ratio of the milliseconds of all kernels,
-# and that of the process's CPU time, in which the host's share of the estimate counts too and, on a CPU device, the
-# kernels do; less the CPU time of one pass, which is mostly start-up. Of each kernel and of CPU time the least of eleven
-# runs each, in turns, since what else the machine does only adds. Takes some minutes.
+# Measures what the error estimate adds to a render, on the named scenes or on the Cornell box and the glass caustic, by
+# kernels as they ship and by a copy without the estimate (tests/bench/without_errors.patch), in turns. Both must give the
+# same picture to the bit. Prints the table of README, in shares of the render's CPU time: milliseconds of the kernels
+# whose source differs; what the host adds, as CPU time of a render that has next to nothing else to do; and both together.
+# Of everything the least of eleven runs, since what else the machine does only adds. Takes some minutes.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
@@ -21,47 +20,61 @@ cp -r "$root/cl" "$folder/without/cl"
 patch --quiet -d "$folder/without" -p1 <"$root/tests/bench/without_errors.patch" >"$folder/log" 2>&1 ||
   fail "tests/bench/without_errors.patch does not apply: $(head -1 "$folder/log")"
 python3 - "$root/build/causticl" "$folder" "${scenes[@]}" <<'PYTHON'
-import filecmp, json, os, pathlib, subprocess, sys
-causticl, folder = sys.argv[1:3]
-passes, pairs = {'sppm': 48, 'pt': 96}, 11
+import filecmp, json, os, pathlib, re, subprocess, sys
+causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+VARIANTS, RUNS = ('with', 'without'), 11
+PASSES = {'sppm': ['--passes', '48', '--photons', '50000'], 'pt': ['--samples', '96']}
+IDLE = ['--size', '64x64', '--passes', '48', '--photons', '1', '-D', 'renderer.view_point_sample=1']
 
 
-def render(scene, integrator, kernels, passes):
-    """Milliseconds of each kernel and CPU seconds of one render."""
-    command = [causticl, 'render', scene, '--integrator', integrator, '--quiet', '--size', '160x120', '--kernel-dir',
-               f'{folder}/{kernels}/cl', '-o', f'{folder}/{kernels}.pfm', '--stats-json', f'{folder}/stats.json',
-               *(['--passes', str(passes), '--photons', '50000'] if integrator == 'sppm' else ['--samples', str(passes)])]
-    process = subprocess.Popen(command)
+def render(scene, integrator, variant, *options):
+    """Milliseconds of each kernel, and CPU seconds, of one render."""
+    command = [causticl, 'render', scene, '--integrator', integrator, '--quiet', '--kernel-dir', folder / variant / 'cl',
+               '-o', folder / f'{variant}.pfm', '--stats-json', folder / 'stats.json', *options]
+    process = subprocess.Popen(list(map(str, command)))
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
-        sys.exit(f'error: {" ".join(command)} failed')
-    kernels = json.load(open(f'{folder}/stats.json'))['kernels']
-    return kernels, usage.ru_utime + usage.ru_stime
+        sys.exit(f'error: {" ".join(map(str, command))} failed')
+    return json.loads((folder / 'stats.json').read_text())['kernels'], usage.ru_utime + usage.ru_stime
+
+
+def changed_kernels(scene, integrator):
+    """Those of programs whose source is another without the estimate; all others are the same code."""
+    changed = set()
+    for variant in VARIANTS:
+        render(scene, integrator, variant, '--size', '16x16', '--passes', '1', '--samples', '1', '--dump-kernels',
+               folder / variant / 'built')
+    for file in (folder / 'with/built').iterdir():
+        if not filecmp.cmp(file, folder / 'without/built' / file.name, shallow=False):
+            changed.update(re.findall(r'^kernel void (\w+)', file.read_text(), re.MULTILINE))
+    return changed
 
 
 def least(runs):
-    """The sum over kernels of the least time of each."""
-    return sum(min(run[kernel] for run in runs) for kernel in runs[0])
+    return {key: min(run.get(key, 0) for run in runs) for key in runs[0]}
 
 
-print('| scene | integrator | kernels: with / without | CPU time: with / without |\n|---|---|---|---|')
-for scene in sys.argv[3:]:
-    for integrator in ('sppm', 'pt'):
-        kernels, seconds = {}, {}
-        for variant in ('with', 'without'):
-            render(scene, integrator, variant, 1)  # compiles
-            kernels[variant], seconds[variant] = [], {1: [], passes[integrator]: []}
-        for pair in range(pairs):
-            for count in (1, passes[integrator]):
-                for variant in ('with', 'without') if pair % 2 else ('without', 'with'):
-                    run, cpu = render(scene, integrator, variant, count)
-                    seconds[variant][count].append(cpu)
-                    if count > 1:
-                        kernels[variant].append(run)
-            if not filecmp.cmp(f'{folder}/with.pfm', f'{folder}/without.pfm', shallow=False):
+print('| scene | integrator | kernels, % | host, % | together, % |\n|---|---|---|---|---|')
+for scene in map(pathlib.Path, sys.argv[3:]):
+    for integrator, options in PASSES.items():
+        changed = changed_kernels(scene, integrator)
+        kernels, cpu, idle = {v: [] for v in VARIANTS}, [], {v: [] for v in VARIANTS}
+        for _ in range(RUNS):
+            for variant in VARIANTS:
+                if integrator == 'sppm':
+                    idle[variant].append(render(scene, integrator, variant, *IDLE)[1])
+                run, seconds = render(scene, integrator, variant, '--size', '160x120', *options)
+                kernels[variant].append(run)
+                cpu += [seconds] if variant == 'without' else []
+            if not filecmp.cmp(folder / 'with.pfm', folder / 'without.pfm', shallow=False):
                 sys.exit(f'error: {scene} by {integrator}: the estimate changes the picture')
-        work = {v: min(seconds[v][passes[integrator]]) - min(seconds[v][1]) for v in seconds}
-        print(f"| `{pathlib.Path(scene).stem}` | {integrator} | {least(kernels['with']) / least(kernels['without']):.3f} | "
-              f"{work['with'] / work['without']:.3f} |", flush=True)
+        time = {v: least(kernels[v]) for v in VARIANTS}
+        all_kernels = sum(time['without'].values())
+        device = sum(time['with'][k] - time['without'].get(k, 0) for k in time['with'] if k in changed) / all_kernels
+        if integrator == 'sppm':  # the host does the same for both
+            host_seconds = min(idle['with']) - min(idle['without'])
+        host = host_seconds / min(cpu)
+        print(f'| `{scene.stem}` | {integrator} | {100 * device:.1f} | {100 * host:.1f} | {100 * (device + host):.1f} |',
+              flush=True)
 PYTHON
