@@ -111,26 +111,37 @@ bool measure_combined(StudySession& session) {
   return measure(session, *combined, study.seed, study.run_seconds, session.budget.long_runs_end(), false);
 }
 
-/// What is left of the budget shows how the settings that promise 2% the soonest go on.
-bool measure_long_runs(StudySession& session) {
-  Study& study = session.study;
-  const std::uint32_t seed = long_seed(study.seed);
-  constexpr std::size_t aim = 2;  // of study_targets
-  for (int i = 0; i < most_long_runs; ++i) {
-    const double left = session.budget.long_runs_end() - session.spent();
-    if (left < 4 * study.run_seconds) return true;
+/// The setting that promises an error the soonest of those that have not gone on for long with `seed` yet and
+/// are not known well: of 2%, or of the least of which any does. None where none comes near.
+const StudySetting* most_promising(const Study& study, const StudyAnalysis& analysis, std::uint32_t seed) {
+  constexpr std::size_t smallest = 2;  // of study_targets
+  for (std::size_t target = smallest + 1; target-- > 0;) {
     const StudySetting* best = nullptr;
     double least = HUGE_VAL;
-    const StudyAnalysis analysis = analyse(study);
     for (const auto& candidate : analysis.settings) {
-      if (study.run(candidate.setting, seed, true)) continue;
-      const Reach& reach = candidate.error_90[aim];
-      if (!reach.reached || reach.seconds >= least) continue;
-      if (candidate.error_90.back().reached && !candidate.error_90.back().extrapolated)
-        continue;  // all is known
+      const Reach& reach = candidate.error_90[target];
+      const Reach& last = candidate.error_90.back();
+      const bool all_is_known = last.reached && !last.extrapolated;
+      if (!reach.reached || reach.seconds >= least || all_is_known ||
+          study.run(candidate.setting, seed, true))
+        continue;
       least = reach.seconds;
       best = &candidate.setting;
     }
+    if (best) return best;
+  }
+  return nullptr;
+}
+
+/// What is left of the budget shows how the most promising settings go on.
+bool measure_long_runs(StudySession& session) {
+  Study& study = session.study;
+  const std::uint32_t seed = long_seed(study.seed);
+  for (int i = 0; i < most_long_runs; ++i) {
+    const double left = session.budget.long_runs_end() - session.spent();
+    if (left < 4 * study.run_seconds) return true;
+    const StudyAnalysis analysis = analyse(study);
+    const StudySetting* best = most_promising(study, analysis, seed);
     if (!best) return true;
     const double end = session.spent() + (i + 1 < most_long_runs ? 0.6 : 1.0) * left;
     if (!measure(session, *best, seed, HUGE_VAL, end, true)) return false;
