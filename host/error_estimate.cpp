@@ -141,7 +141,9 @@ double ErrorTrend::passes_until(double wanted) const {
   }
   constexpr double octaves = 4;
   const double expected = std::log2(error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
-  const double rate = std::max(rate_of(&Look::error, expected, 0.5), 0.01);
+  const double rate = rate_of(&Look::error, expected, 0.5);
+  constexpr double slowest = 0.05;  // half the error would take a million times as long
+  if (rate < slowest) return std::numeric_limits<double>::infinity();
   return std::sqrt(high * std::pow(error / wanted, 1 / rate)) * static_cast<double>(passes_);
 }
 

@@ -210,7 +210,9 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     if (pass == 0) statistics.first_pass_done_seconds = elapsed;
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
+    const auto look_start = Clock::now();
     watch.update(pass + 1);
+    statistics.error_seconds += seconds_since(look_start);
     statistics.pass_seconds += this_pass;
     if (options.snapshot && snapshot_due(pass + 1))
       options.snapshot({pass + 1, totals.photons_emitted, statistics.pass_seconds, film.picture(pass + 1)});

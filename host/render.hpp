@@ -78,7 +78,8 @@ struct Statistics {
   double kernel_build_seconds = 0;  // of all programs
   std::uint64_t kept_programs = 0;  // those that an earlier run had compiled
   std::vector<PassStatistics> pass_programs;
-  double pass_seconds = 0;  // of the passes alone, without start-up, writing and snapshots
+  double pass_seconds = 0;   // of the passes alone, without start-up, writing and snapshots
+  double error_seconds = 0;  // looking at the error of the picture, while passes go on
   double tree_build_seconds = 0;
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;           // estimated; none after a single pass and of a black picture

@@ -150,6 +150,8 @@ std::string statistics_json(const Statistics& s) {
                                    {"first_pass_done_seconds", s.first_pass_done_seconds},
                                    {"kernel_build_seconds", s.kernel_build_seconds},
                                    {"kept_programs", s.kept_programs},
+                                   {"pass_seconds", s.pass_seconds},
+                                   {"error_seconds", s.error_seconds},
                                    {"tree_build_seconds", s.tree_build_seconds},
                                    {"passes", s.passes},
                                    {"photons", s.photons},

@@ -77,7 +77,7 @@ def measure(scene):
         squares = statistics.mean(c['error_90'] for c in compared) ** 2 - noise ** 2
         truth[passes] = math.sqrt(squares) if squares > 0 else 0
         estimate[passes] = statistics.mean(s['error'] for _, s in pictures)
-        further = [s['passes_to_half_error'] for _, s in pictures if 'passes_to_half_error' in s]
+        further = [s['passes_to_half_error'] or math.inf for _, s in pictures if 'passes_to_half_error' in s]
         half[passes] = passes + statistics.median(further) if further else None
 
     def passes_at(error):

@@ -100,6 +100,10 @@ TEST_CASE("bias goes down at its own rate, and what does not go down never ends"
   ErrorTrend constant({0.35, 0}, 0.9);
   constant.add(10, biased);
   CHECK(constant.passes_until(0.05) == INFINITY);
+  // An error that went down and does so no more.
+  ErrorTrend halted({0.35, 0.2}, 0.9);
+  for (const std::uint64_t passes : {16, 20, 24, 32, 40, 48, 64}) halted.add(passes, biased);
+  CHECK(halted.passes_until(0.05) == INFINITY);
   // Between the two: noise falls away, and the bias is left.
   ErrorTrend both({0.5, 0.2}, 0.9);
   both.add(10, std::vector<PixelError>(100, {1, 0.1f, 0, 0.1f}));
