@@ -11,8 +11,10 @@ void add_selftest_options(CLI::App& app, Options& options) {
   auto* quick = app.add_flag_callback(
       "--quick", effort(SelftestOptions::Effort::quick),
       "10^5 inputs a check at most: under half a minute once the\nkernels are compiled; default: 10^6");
-  app.add_flag_callback("--full", effort(SelftestOptions::Effort::full),
-                        "10^8 inputs a check: hours on a CPU")
+  app.add_flag_callback(
+         "--full", effort(SelftestOptions::Effort::full),
+         "10^8 inputs a hard case, shared by its checks, and at least\n10^6 a check: half an hour on "
+         "two cores")
       ->excludes(quick);
   app.add_option("--inputs", selftest.inputs, "inputs a check")
       ->check(whole_number(1, 1000000000000))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +17,7 @@ std::uint64_t inputs_of(const Check& check, const SelftestOptions& options) {
     case SelftestOptions::Effort::quick:
       return std::max<std::uint64_t>(100000 / check.input_cost, 1000);
     case SelftestOptions::Effort::full:
-      return 100000000;
+      return std::max<std::uint64_t>(std::llround(1e8 * check.share), 1000000);
     default:
       return 1000000;
   }

@@ -11,7 +11,7 @@ namespace causticl {
 
 /// What to run.
 struct SelftestOptions {
-  enum class Effort { quick, normal, full };  // about 10^5, 10^6 and 10^8 inputs a check
+  enum class Effort { quick, normal, full };  // 10^5 inputs a check at most, 10^6, or 10^8 a case
   Effort effort = Effort::normal;
   std::uint64_t inputs = 0;         // a check; 0: what `effort` says
   std::vector<std::string> checks;  // numbers of hard cases, or parts of checks' names; empty: all

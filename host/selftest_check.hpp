@@ -50,6 +50,8 @@ struct Check {
   CheckResult (*run)(CheckContext&);
   std::string programs =
       {};  // checks that share kernel programs, which take seconds to compile, have the same
+  double share =
+      1;  // of its hard case's inputs, where these are shared so that all its checks take equally long
 };
 
 /// Words as the argument of `--replay`: each as a hexadecimal float, or as #hexadecimal bits where it is no

@@ -272,11 +272,11 @@ CheckResult enclosed_photons(CheckContext& context) {
 
 std::vector<Check> bezier_checks() {
   return {{10, "Bezier: first hit of ordinary rays", 4, ordinary_rays},
-          {10, "Bezier: first hit of tangent rays and short chords", 8, tangent_rays},
-          {10, "Bezier: first hit along and through the axis", 4, axis_rays},
-          {10, "Bezier: first hit of horizontal rays", 4, horizontal_rays},
+          {10, "Bezier: first hit of tangent rays and short chords", 40, tangent_rays},
+          {10, "Bezier: first hit along and through the axis", 10, axis_rays},
+          {10, "Bezier: first hit of horizontal rays", 20, horizontal_rays},
           {10, "Bezier: hit points within their error bound", 4, error_bounds},
-          {10, "Bezier: no photon leaves a closed surface", 1, enclosed_photons}};
+          {10, "Bezier: no photon leaves a closed surface", 3, enclosed_photons}};
 }
 
 }  // namespace causticl

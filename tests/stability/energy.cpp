@@ -212,7 +212,7 @@ CheckResult dark_inside(CheckContext& context) {
 }  // namespace
 
 std::vector<Check> energy_checks() {
-  return {{14, "white furnace: no material loses or gains", 3, white_furnace, pass_programs},
+  return {{14, "white furnace: no material loses or gains", 1, white_furnace, pass_programs},
           {14, "a closed sphere with K_d = L_e = 1/2 is 1", 3, closed_sphere, pass_programs},
           {14, "white balls under an even sky of 1 are 1", 3, environment_furnace, pass_programs},
           {15, "no light through closed smooth meshes", 10, dark_inside, pass_programs}};

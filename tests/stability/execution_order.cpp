@@ -116,7 +116,7 @@ Scene small_scene(std::uint64_t photons) {
 /// Whole pictures; each photon of each render is an input.
 CheckResult picture(CheckContext& context) {
   CheckResult result;
-  const std::uint64_t photons = std::clamp<std::uint64_t>(context.inputs / 16, 1000, 1000000);
+  const std::uint64_t photons = std::clamp<std::uint64_t>(context.inputs / 16, 1000, 2000000);
   const Scene scene = small_scene(photons);
   const auto render = [&] {
     const RenderResult rendered = render_for(context, scene);
@@ -136,8 +136,8 @@ CheckResult picture(CheckContext& context) {
 }  // namespace
 
 std::vector<Check> execution_order_checks() {
-  return {{20, "sorting and gathering in any order", 1, sort_and_gather},
-          {20, "a picture in any order of execution", 1, picture, pass_programs}};
+  return {{20, "sorting and gathering in any order", 4, sort_and_gather},
+          {20, "a picture in any order of execution", 16, picture, pass_programs}};
 }
 
 }  // namespace causticl

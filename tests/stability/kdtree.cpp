@@ -162,7 +162,7 @@ CheckResult equals_brute_force(CheckContext& context) {
 std::vector<Check> kdtree_checks() {
   return {{7, "tree equals brute force: a closed mesh", 2, equals_brute_force<closed_mesh>},
           {7, "tree equals brute force: coplanar meshes", 2, equals_brute_force<coplanar_meshes>},
-          {7, "tree equals brute force: 1000 duplicates", 10, equals_brute_force<duplicates>},
+          {7, "tree equals brute force: 1000 duplicates", 40, equals_brute_force<duplicates>},
           {7, "tree equals brute force: stacked boxes", 2, equals_brute_force<stacked_boxes>},
           {7, "tree equals brute force: no triangle or one", 1, equals_brute_force<none_or_one>}};
 }

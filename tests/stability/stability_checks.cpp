@@ -1,6 +1,7 @@
 #include "stability_checks.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace causticl {
 
@@ -36,6 +37,10 @@ std::vector<Check> stability_checks() {
       if (check.programs.empty()) check.programs = group.front().name;
       all.push_back(check);
     }
+  std::map<int, double>
+      inputs_for_one;  // of a case: what all its checks try while a check of cost 1 tries one
+  for (const auto& check : all) inputs_for_one[check.hard_case] += 1.0 / check.input_cost;
+  for (auto& check : all) check.share = 1 / (check.input_cost * inputs_for_one[check.hard_case]);
   std::stable_sort(all.begin(), all.end(),
                    [](const Check& a, const Check& b) { return a.hard_case < b.hard_case; });
   return all;
