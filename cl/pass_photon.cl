@@ -151,7 +151,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   PhotonStore store = {staged + get_local_id(0) * room, room, 0, photons, params.photon_capacity, counters};
   if (index < params.photon_count) {
     SCENE_INIT(params);
-    rays = photon_path(&scene, &params, index, &store);
+    rays = photon_path(&scene, &params, params.first_photon + index, &store);
   }
   uint first = group_reserve(store.count, places, &counters->photons);
   for (uint i = 0; i < store.count; ++i)

@@ -208,7 +208,7 @@ typedef struct {
   uint emitter_count;
   float emitter_density;     // pi / power of the largest channels of all emitters; 0 without emitters
   float photon_flux;         // flux of the largest channel of one emitted photon
-  uint photon_count;         // emitted in a pass
+  uint photon_count;         // emitted by this launch
   uint photon_capacity;      // stored at most
   float alpha;               // share of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
@@ -219,7 +219,8 @@ typedef struct {
   float4 scattering;         // of the medium, per unit length
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
   uint delta_lights;         // how many of the emitters are point, spot and directional lights
-  uint unused[2];
+  uint first_photon;         // of those that this launch traces: photons [first_photon, first_photon + photon_count) of
+  uint unused;               //   the pass; several devices share them
 } Params;
 CHECK_SIZE(Params, 224);
 

@@ -93,10 +93,28 @@ DeviceInfo find_device(const std::string& spec) {
                   " found; expected an index, cpu, gpu or part of a name (see `causticl devices`)");
 }
 
+std::vector<DeviceInfo> find_devices(const std::string& spec) {
+  if (lowered(spec) == "all") {
+    auto all = list_devices();
+    if (all.empty()) find_device("");  // throws the message that says what to install
+    return all;
+  }
+  std::vector<DeviceInfo> result;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = spec.find(',', begin);
+    result.push_back(find_device(spec.substr(begin, end - begin)));
+    for (std::size_t i = 0; i + 1 < result.size(); ++i)
+      if (result[i].device() == result.back().device())
+        throw UserError("--device " + spec + ": " + result.back().name + " is named twice");
+  }
+  return result;
+}
+
 Device::Device(const DeviceInfo& info, unsigned threads, KernelCache* cache)
     : info_(info),
       device_(info.device),
       is_pocl_(info.platform_name.find("Portable Computing Language") != std::string::npos),
+      is_oclgrind_(info.platform_name.find("Oclgrind") != std::string::npos),
       cache_(cache) {
   try {
     if (threads > 0 && threads < info.compute_units && info.type == "cpu") {

@@ -31,6 +31,10 @@ std::vector<DeviceInfo> list_devices();
 /// DeviceError where the machine has no device at all.
 DeviceInfo find_device(const std::string& spec);
 
+/// The devices that `spec` names: those that find_device() takes, with commas between them, or "all". Throws
+/// what find_device() throws, and UserError for a device that is named twice.
+std::vector<DeviceInfo> find_devices(const std::string& spec);
+
 /// Milliseconds and launches of each kernel, by name.
 struct KernelTime {
   double milliseconds = 0;
@@ -51,6 +55,9 @@ class Device {
 
   /// Whether programs that are built at the same time are: PoCL has one lock around its compiler.
   bool compiles_in_parallel() const { return !is_pocl_; }
+
+  /// Whether several threads may use the device, as OpenCL promises: under Oclgrind one alone.
+  bool takes_threads() const { return !is_oclgrind_; }
 
   /// Compiles OpenCL C. Throws DeviceError with the compiler's log.
   cl::Program build(const std::string& source, const std::string& options = "");
@@ -113,7 +120,7 @@ class Device {
   cl::Context context_;
   cl::CommandQueue queue_;
   std::size_t local_size_ = 64;
-  bool is_pocl_ = false;
+  bool is_pocl_ = false, is_oclgrind_ = false;
   KernelCache* cache_ = nullptr;
   std::atomic<double> build_seconds_{0};
   std::uint64_t allocated_bytes_ = 0;

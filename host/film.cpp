@@ -30,7 +30,19 @@ Film::Film(Device& device, Programs& programs, int width, int height)
 
 bool Film::has_layers() const { return (programs_.options().effects & OUTPUT_LAYERS) != 0; }
 
+void Film::take_pixels(Film& from, std::size_t first, std::size_t count) {
+  const auto take = [&](std::size_t begin, std::size_t bytes) {
+    if (bytes == 0) return;
+    const auto data = from.device_.download<std::byte>(from.pixels_, bytes, begin);
+    device_.queue().enqueueWriteBuffer(pixels_, CL_TRUE, begin, bytes, data.data());
+  };
+  take(first * sizeof(FilmPixel), count * sizeof(FilmPixel));
+  if (has_layers())
+    take(pixels() * sizeof(FilmPixel) + first * sizeof(FilmLayers), count * sizeof(FilmLayers));
+}
+
 Picture Film::picture(std::uint64_t passes) {
+  if (complete_) complete_();
   const auto sums = device_.download<FilmPixel>(pixels_, pixels());
   Picture picture{width_, height_, std::vector<float>(3 * pixels())};
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -49,6 +61,7 @@ std::vector<Channel> layer_channels(std::size_t pixels) {
 }
 
 std::vector<Channel> Film::layers(std::uint64_t passes) {
+  if (complete_) complete_();
   const auto sums = device_.download<FilmPixel>(pixels_, pixels());
   const auto layers = device_.download<FilmLayers>(pixels_, pixels(), pixels() * sizeof(FilmPixel));
   auto channels = layer_channels(pixels());
@@ -61,6 +74,7 @@ std::vector<Channel> Film::layers(std::uint64_t passes) {
 }
 
 std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
+  if (complete_) complete_();
   // A stride that shares no factor with the width visits all columns.
   std::size_t stride = (pixels() + most - 1) / most;
   while (stride > 1 && std::gcd(stride, static_cast<std::size_t>(width_)) != 1) ++stride;

@@ -1,6 +1,8 @@
 // The film: device sums of radiance estimates, and the picture made of them.
 #pragma once
 
+#include <functional>
+
 #include "device.hpp"
 #include "image.hpp"
 #include "programs.hpp"
@@ -17,6 +19,11 @@ class Film {
   Film(Device& device, Programs& programs, int width, int height);
 
   const cl::Buffer& buffer() const { return pixels_; }
+
+  /// Takes `count` pixels from `first` on as they are in the film of another device, of the same size.
+  void take_pixels(Film& from, std::size_t first, std::size_t count);
+  /// Called before the film is read: to take what other devices have of it.
+  void complete_by(std::function<void()> complete) { complete_ = std::move(complete); }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
   bool has_layers() const;
   std::size_t bytes_per_pixel() const { return sizeof(FilmPixel) + (has_layers() ? sizeof(FilmLayers) : 0); }
@@ -38,6 +45,7 @@ class Film {
   Programs& programs_;
   cl::Buffer pixels_, errors_;
   std::size_t errors_capacity_ = 0;
+  std::function<void()> complete_;
   cl::Kernel pixel_errors_;
 };
 

@@ -2,13 +2,28 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "faults.hpp"
 #include "image.hpp"
 #include "types.h"
 
 namespace causticl {
+
+/// What one of several devices does of every pass: of n things those from first_of(n) up to end_of(n).
+struct Share {
+  double begin = 0, end = 1;
+  std::size_t first_of(std::size_t n) const { return part(begin, n); }
+  std::size_t end_of(std::size_t n) const { return part(end, n); }
+  std::size_t count_of(std::size_t n) const { return end_of(n) - first_of(n); }
+
+ private:
+  static std::size_t part(double share, std::size_t n) {
+    return static_cast<std::size_t>(share * static_cast<double>(n));
+  }
+};
 
 /// One progressive estimator: every pass adds one estimate of every pixel to the film.
 class PassIntegrator {
@@ -17,6 +32,17 @@ class PassIntegrator {
 
   /// Enqueues pass number `pass` (from 0). Passes run in order.
   virtual void enqueue_pass(std::uint32_t pass) = 0;
+
+  /// From now on, only this share of the pixels and photons of a pass.
+  void set_share(Share share) { share_ = share; }
+
+  /// Where several devices share the passes, that part of a pass on which the others wait: tracing the
+  /// share's photons. Waits for the device.
+  virtual void trace_share(std::uint32_t) {}
+  /// The records of these photons.
+  virtual std::vector<std::byte> photons() { return {}; }
+  /// Puts those of all devices in their place.
+  virtual void set_photons(const std::vector<std::vector<std::byte>>&) {}
 
   /// Waits for all passes enqueued so far and returns the device's counters, each summed without wrapping.
   struct Totals {
@@ -37,6 +63,7 @@ class PassIntegrator {
 
  protected:
   using Clock = std::chrono::steady_clock;
+  Share share_;
   Clock::time_point began_;
   double early_seconds_ = 0;
 };

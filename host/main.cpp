@@ -1,6 +1,7 @@
 // causticl: the whole flow, one call a line.
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <new>
 
 #include "compare.hpp"
@@ -44,13 +45,17 @@ int render(const Options& options) {
   for (const auto& notice : scene.notices) progress.note(notice);
   KernelCache kernels(options.keep_kernels);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
-  const DeviceInfo device_info = find_device(options.device);
-  progress.note(threads_notice(options, device_info));
-  Device device(device_info, options.threads, &kernels);
+  std::vector<std::unique_ptr<Device>> opened;
+  std::vector<Device*> devices;
+  for (const DeviceInfo& info : find_devices(options.device)) {
+    progress.note(threads_notice(options, info));
+    opened.push_back(std::make_unique<Device>(info, options.threads, &kernels));
+    devices.push_back(opened.back().get());
+  }
 
   interruption_listen(options.quiet);
   const RenderResult result = render_scene(
-      scene, device, render_options(options, outputs), [&](const Progress& now) { progress.update(now); },
+      scene, devices, render_options(options, outputs), [&](const Progress& now) { progress.update(now); },
       [&](const std::string& text) { progress.note(text); }, interruption_requested);
 
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });

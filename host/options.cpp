@@ -97,10 +97,13 @@ void add_method_options(CLI::App& app, Options& options, Texts& texts) {
 }
 
 /// What it runs on.
-void add_device_options(CLI::App& app, Options& options) {
+void add_device_options(CLI::App& app, Options& options, bool takes_several = false) {
+  const std::string several =
+      "; several\nwith commas between them, or all, share every pass, to\nthe same picture";
   app.add_option("--device", options.device,
-                 "index, cpu, gpu or part of a name (see `causticl devices`);\n"
-                 "default: the first GPU, else the first device")
+                 "index, cpu, gpu or part of a name (see `causticl devices`)" +
+                     (takes_several ? several : std::string()) +
+                     ";\ndefault: the first GPU, else the first device")
       ->type_name("SPEC");
   app.add_option("--threads", options.threads, "compute units of a CPU device to use; default: all")
       ->check(whole_number(1, largest_int))
@@ -188,7 +191,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_scene_options(render, options, texts);
   add_output_options(render, options, texts);
   add_method_options(render, options, texts);
-  add_device_options(render, options);
+  add_device_options(render, options, true);
   add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
                 exit_codes);

@@ -27,10 +27,10 @@ void PathTracer::enqueue_pass(std::uint32_t pass) {
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
   set_scene_arguments(trace_paths_, device_scene_);
-  const std::size_t pixels = film_.pixels(), chunk = launch_chunk(device_);
-  for (std::size_t first = 0; first < pixels; first += chunk) {
+  const std::size_t end = share_.end_of(film_.pixels()), chunk = launch_chunk(device_);
+  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk) {
     params_.first_pixel = static_cast<uint>(first);
-    params_.pixel_count = static_cast<uint>(std::min(chunk, pixels - first));
+    params_.pixel_count = static_cast<uint>(std::min(chunk, end - first));
     trace_paths_.setArg(first_argument_ + 2, params_);
     device_.launch_pass(trace_paths_, params_.pixel_count);
   }

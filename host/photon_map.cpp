@@ -8,7 +8,8 @@
 namespace causticl {
 namespace {
 
-constexpr std::size_t scan_segment = 256;  // SCAN_SEGMENT of cl/pass_grid.cl
+constexpr std::size_t scan_segment = 256;           // SCAN_SEGMENT of cl/pass_grid.cl
+constexpr std::size_t photon_bytes_in_double = 40;  // CHECK_SIZE of cl/types.h
 
 std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 1) / scan_segment; }
 
@@ -18,7 +19,8 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& program
     : scene_(scene),
       device_(device),
       programs_(programs),
-      photon_bytes_(sizeof(Photon) * record_scale(programs.options().precision)),
+      photon_bytes_(programs.options().precision == Precision::float64 ? photon_bytes_in_double
+                                                                       : sizeof(Photon)),
       counters_(counters) {
   reserve_buckets(1);
   sorted_ = device_.buffer(0, "sorted photons");
@@ -31,6 +33,7 @@ void PhotonMap::prepare() {
 
 Counters PhotonMap::trace(Params params) {
   stored_ = 0;
+  if (params.photon_count == 0) return device_.download<Counters>(counters_, 1)[0];
   // Two stored photons for each emitted one are usual; a closed white room wants more, and gets it below.
   if (!reserve_photons(2ull * params.photon_count))
     throw UserError(std::to_string(params.photon_count) +
@@ -51,6 +54,25 @@ Counters PhotonMap::trace(Params params) {
       dropped_ += counters.photons - capacity_;
       return counters;
     }
+  }
+}
+
+std::vector<std::byte> PhotonMap::records() {
+  return device_.download<std::byte>(photons_, stored_ * photon_bytes_);
+}
+
+void PhotonMap::set_records(const std::vector<std::vector<std::byte>>& parts) {
+  std::uint64_t wanted = 0;
+  for (const auto& part : parts) wanted += part.size() / photon_bytes_;
+  if (wanted > capacity_ && (full_ || !reserve_photons(wanted + wanted / 8))) full_ = true;
+  stored_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, capacity_));
+  dropped_ += wanted - stored_;
+  std::size_t at = 0;
+  const std::size_t end = stored_ * photon_bytes_;
+  for (const auto& part : parts) {
+    const std::size_t bytes = std::min(part.size(), end - at);
+    if (bytes > 0) device_.queue().enqueueWriteBuffer(photons_, CL_TRUE, at, bytes, part.data());
+    at += bytes;
   }
 }
 

@@ -20,6 +20,11 @@ class PhotonMap {
   /// and counted. Returns the counters as they were left.
   Counters trace(Params params);
 
+  /// The records of the photons that trace() stored.
+  std::vector<std::byte> records();
+  /// Puts these in their place. Where the device has no room for them, those beyond are dropped and counted.
+  void set_records(const std::vector<std::vector<std::byte>>& parts);
+
   /// Enqueues the sort into cubes with edges of `cell` units.
   void sort(double cell);
 
@@ -36,7 +41,7 @@ class PhotonMap {
   Programs& programs_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_ = 0;
-  std::size_t photon_bytes_;  // of one record, traced or sorted
+  std::size_t photon_bytes_;  // of one record as traced; a sorted one takes no more
   cl::Buffer counters_, photons_, sorted_, ranks_, counts_, sums_, starts_;
   std::uint32_t capacity_ = 0, stored_ = 0;
   std::uint64_t dropped_ = 0;

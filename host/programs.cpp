@@ -59,6 +59,10 @@ Programs::Programs(Device& device, const KernelOptions& options, const std::vect
     builds_[i].pass = passes[i];
     builds_[i].program = builds_[i].promise.get_future().share();
   }
+  if (!device.takes_threads()) {
+    work({});
+    return;
+  }
   const std::size_t threads =
       device.compiles_in_parallel() ? passes.size() : std::min<std::size_t>(passes.size(), 1);
   for (std::size_t i = 0; i < threads; ++i)

@@ -19,8 +19,9 @@ struct ProgramBuild {
 };
 
 /// Builds the programs of `passes` on threads of their own, in this order: one thread where the driver
-/// compiles one at a time whatever it is asked for, else one a program. Each kernel is launched once with all
-/// scalars 0, upon which it must return at once, since drivers compile much at the first launch.
+/// compiles one at a time whatever it is asked for, else one a program; at once where the device takes no
+/// threads. Each kernel is launched once with all scalars 0, upon which it must return at once, since drivers
+/// compile much at the first launch.
 class Programs {
  public:
   Programs(Device& device, const KernelOptions& options, const std::vector<std::string>& passes);

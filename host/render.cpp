@@ -13,7 +13,7 @@
 #include "error_watch.hpp"
 #include "passes.hpp"
 #include "path.hpp"
-#include "programs.hpp"
+#include "several_devices.hpp"
 #include "sppm.hpp"
 
 namespace causticl {
@@ -102,15 +102,37 @@ std::vector<PassStatistics> pass_statistics(const std::vector<PassPlan>& plan,
   return result;
 }
 
-/// The launches since `before`, of this render alone.
-std::map<std::string, KernelTime> kernel_times_since(const std::map<std::string, KernelTime>& before,
-                                                     std::map<std::string, KernelTime> now) {
-  for (const auto& [name, time] : before) {
-    now[name].milliseconds -= time.milliseconds;
-    now[name].launches -= time.launches;
+/// Makes the integrator of `on`. Returns the first radius of SPPM, which is `first_radius` where that is
+/// given, and 0 for path tracing.
+double start_integrator(RenderDevice& on, const Scene& scene, std::uint32_t seed, bool with_photons,
+                        std::optional<double> first_radius) {
+  if (scene.renderer.integrator == Integrator::pt) {
+    on.integrator = std::make_unique<PathTracer>(scene, on.scene, on.device, on.film, on.programs, seed);
+    return 0;
   }
-  std::erase_if(now, [](const auto& entry) { return entry.second.launches == 0; });
-  return now;
+  auto sppm = std::make_unique<Sppm>(scene, on.scene, on.device, on.film, on.programs, seed, with_photons,
+                                     first_radius);
+  const double radius = sppm->first_radius();
+  on.integrator = std::move(sppm);
+  return radius;
+}
+
+std::string names_of(const std::vector<Device*>& devices) {
+  std::string names;
+  for (const Device* device : devices) names += (names.empty() ? "" : " + ") + device->info().name;
+  return names;
+}
+
+/// What the devices did in this render.
+void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& parts, Statistics& statistics) {
+  for (const auto& part : parts) {
+    statistics.device_bytes += part->device.allocated_bytes();
+    statistics.kept_programs += part->device.kept_programs() - part->kept_before;
+    for (const auto& [name, time] : part->kernel_times()) {
+      statistics.kernels[name].milliseconds += time.milliseconds;
+      statistics.kernels[name].launches += time.launches;
+    }
+  }
 }
 
 /// The picture of a scene without light, by no pass at all.
@@ -127,14 +149,14 @@ RenderResult black_picture(const Scene& scene, const RenderOptions& options, con
 
 }  // namespace
 
-RenderResult render_scene(const Scene& scene, Device& device, const RenderOptions& options,
-                          const std::function<void(const Progress&)>& progress,
+RenderResult render_scene(const Scene& scene, const std::vector<Device*>& devices,
+                          const RenderOptions& options, const std::function<void(const Progress&)>& progress,
                           const std::function<void(const std::string&)>& notice,
                           const std::function<bool()>& interrupted) {
   const auto start = Clock::now();
   const bool sppm = scene.renderer.integrator == Integrator::sppm;
   Statistics statistics;
-  statistics.device = device.info().name;
+  statistics.device = names_of(devices);
   statistics.precision = options.precision;
 
   const Effects effects = find_effects(scene);
@@ -148,17 +170,16 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     statistics.pass_programs = pass_statistics(plan, {}, effects);
     return black_picture(scene, options, statistics);
   }
-  const auto kernels_before = device.kernel_times();
-  const std::size_t kept_before = device.kept_programs();
-  Programs programs(device, kernels, passes_to_run(plan));
-  DeviceScene device_scene = upload_scene(scene, device, options.threads, options.triangle_test);
-  Film film(device, programs, scene.width, scene.height);
-  std::unique_ptr<PassIntegrator> integrator;
+  std::vector<std::unique_ptr<RenderDevice>> parts;
+  for (Device* device : devices)
+    parts.push_back(
+        std::make_unique<RenderDevice>(*device, scene, kernels, passes_to_run(plan), options.threads));
+  const bool with_photons = sppm && why_skipped(plan, "photon").empty();
+  std::optional<double> first_radius = scene.renderer.radius;
+  for (const auto& part : parts)
+    first_radius = start_integrator(*part, scene, options.seed, with_photons, first_radius);
   if (sppm) {
-    const bool with_photons = why_skipped(plan, "photon").empty();
-    auto made =
-        std::make_unique<Sppm>(scene, device_scene, device, film, programs, options.seed, with_photons);
-    statistics.first_radius = made->first_radius();
+    statistics.first_radius = *first_radius;
     statistics.first_radius_chosen = !scene.renderer.radius;
     if (statistics.first_radius_chosen && with_photons && notice) {
       char text[128];
@@ -166,11 +187,13 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
                     statistics.first_radius);
       notice(text);
     }
-    integrator = std::move(made);
-  } else {
-    integrator = std::make_unique<PathTracer>(scene, device_scene, device, film, programs, options.seed);
   }
-  device.queue().finish();
+  for (Device* device : devices) device->queue().finish();
+  RenderDevice& first = *parts.front();
+  Film& film = first.film;
+  std::unique_ptr<SeveralDevices> several;
+  if (parts.size() > 1) several = std::make_unique<SeveralDevices>(parts);
+  PassIntegrator* const integrator = several ? several.get() : first.integrator.get();
 
   const auto wanted = static_cast<std::uint64_t>(sppm ? scene.renderer.passes : scene.renderer.samples);
   PassIntegrator::Totals totals;
@@ -208,6 +231,7 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
     const double elapsed = seconds_since(start);
     const double this_pass = seconds_since(pass_start) + (pass == 0 ? integrator->early_seconds() : 0);
     if (pass == 0) statistics.first_pass_done_seconds = elapsed;
+    if (pass == 0 && several && notice) notice(several->shares_text());
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
     const auto look_start = Clock::now();
@@ -264,22 +288,20 @@ RenderResult render_scene(const Scene& scene, Device& device, const RenderOption
   RenderResult result;
   result.picture = write(film.picture(statistics.passes));
   statistics.first_pass_seconds = std::chrono::duration<double>(integrator->began() - start).count();
-  statistics.tree_build_seconds = device_scene.tree_build_seconds;
-  statistics.triangles = device_scene.triangles;
-  statistics.shapes = device_scene.shapes_count;
-  statistics.skipped_triangles = device_scene.skipped_triangles;
-  statistics.emitters = device_scene.emitter_count;
-  statistics.device_bytes = device.allocated_bytes();
+  statistics.tree_build_seconds = first.scene.tree_build_seconds;
+  statistics.triangles = first.scene.triangles;
+  statistics.shapes = first.scene.shapes_count;
+  statistics.skipped_triangles = first.scene.skipped_triangles;
+  statistics.emitters = first.scene.emitter_count;
   statistics.peak_memory_bytes = peak_memory();
   statistics.bytes_per_pixel = static_cast<double>(film.bytes_per_pixel()) + integrator->bytes_per_pixel();
-  statistics.pass_programs = pass_statistics(plan, programs.builds(), effects);
-  statistics.kernels = kernel_times_since(kernels_before, device.kernel_times());
+  statistics.pass_programs = pass_statistics(plan, first.programs.builds(), effects);
+  add_device_statistics(parts, statistics);
   for (auto& pass : statistics.pass_programs) {
     const auto kernel = statistics.kernels.find(main_kernel(pass.name));
     if (kernel != statistics.kernels.end()) pass.launches = kernel->second.launches;
     statistics.kernel_build_seconds += pass.build_seconds;
   }
-  statistics.kept_programs = device.kept_programs() - kept_before;
   result.statistics = statistics;
   return result;
 }

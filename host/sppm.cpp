@@ -19,7 +19,7 @@ constexpr double segment_share = 0.3;
 }  // namespace
 
 Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-           std::uint32_t seed, bool with_photons)
+           std::uint32_t seed, bool with_photons, std::optional<double> first_radius)
     : spec_(scene.renderer),
       device_(device),
       film_(film),
@@ -35,7 +35,6 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
-  params_.photon_count = static_cast<uint>(spec_.photons);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
 
@@ -55,7 +54,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   trace_camera_.setArg(first_argument_, visible_points_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
 
-  first_radius_ = spec_.radius ? *spec_.radius : choose_first_radius(programs, device_scene.extent);
+  first_radius_ = first_radius ? *first_radius : choose_first_radius(programs, device_scene.extent);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
   cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
@@ -70,6 +69,9 @@ void Sppm::start_pass(std::uint32_t pass) {
   begin_pass(params_, pass);
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
+  const auto photons = static_cast<std::size_t>(spec_.photons);
+  params_.first_photon = static_cast<uint>(share_.first_of(photons));
+  params_.photon_count = static_cast<uint>(share_.count_of(photons));
   params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / spec_.photons);
   if (with_photons_) totals_.update(photon_map_.trace(params_));
   started_pass_ = pass;
@@ -135,17 +137,17 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   set_scene_arguments(trace_camera_, device_scene_);
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
-  emitted_ += with_photons_ ? params_.photon_count : 0;
+  emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
   const double cell = 2 * std::sqrt(schedule_radius2_);
   photon_map_.sort(cell);
   // Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
   params_.segment =
       static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 2 * cell));
 
-  const std::size_t pixels = film_.pixels();
-  for (std::size_t first = 0; first < pixels; first += chunk_pixels_) {
+  const std::size_t end = share_.end_of(film_.pixels());
+  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
     params_.first_pixel = static_cast<uint>(first);
-    params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, pixels - first));
+    params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, end - first));
     trace_camera_.setArg(first_argument_ + 2, params_);
     device_.launch_pass(trace_camera_,
                         static_cast<std::size_t>(params_.pixel_count) * params_.visible_points);

@@ -13,11 +13,17 @@ namespace causticl {
 
 class Sppm : public PassIntegrator {
  public:
-  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture.
+  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture. The
+  /// first radius is chosen where none is given.
   Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-       std::uint32_t seed, bool with_photons);
+       std::uint32_t seed, bool with_photons, std::optional<double> first_radius);
 
   void enqueue_pass(std::uint32_t pass) override;
+  void trace_share(std::uint32_t pass) override { start_pass(pass); }
+  std::vector<std::byte> photons() override { return photon_map_.records(); }
+  void set_photons(const std::vector<std::vector<std::byte>>& photons) override {
+    photon_map_.set_records(photons);
+  }
   Totals finish() override;
   /// sppm.N, sppm.radius and sppm.photons: N and R of the paper, and the photons found.
   std::vector<Channel> channels() override;
