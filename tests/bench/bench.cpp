@@ -42,6 +42,11 @@ int main(int argc, char** argv) {
         start.cold, start.cold_build, start.warm, start.warm_build);
     const auto renders = bench_render(device, passes);
     std::cout << render_table(renders) << std::flush;
+    const auto several = bench_several(device.info(), passes);
+    if (several)
+      std::printf(
+          "devices of one compute unit each: %.3f s a pass on one, %.3f s on two that share it (%.2f x)\n",
+          several->one, several->two, several->one / several->two);
     const auto bench = bench_traversal(device, traversal);
     std::cout << traversal_table(bench);
     if (!json_file.empty()) {
@@ -52,6 +57,9 @@ int main(int argc, char** argv) {
                        {"cold_build_seconds", start.cold_build},
                        {"warm_seconds", start.warm},
                        {"warm_build_seconds", start.warm_build}};
+      if (several)
+        json["several_devices"] = {{"one_seconds_per_pass", several->one},
+                                   {"two_seconds_per_pass", several->two}};
       std::ofstream file(json_file);
       file << json.dump(2) << "\n";
       if (!file.flush()) throw UserError("--json " + json_file + ": cannot be written");

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 
 #include "bench/stopwatch.hpp"
@@ -106,6 +107,35 @@ StartBenchResult bench_start(const std::string& device_spec) {
   std::tie(result.cold, result.cold_build) = start_once(device_spec, cache);
   std::tie(result.warm, result.warm_build) = start_once(device_spec, cache);
   std::filesystem::remove_all(cache);
+  return result;
+}
+
+std::optional<SeveralBenchResult> bench_several(const DeviceInfo& info, int passes) {
+  if (info.type != "cpu" || info.compute_units < 2) return {};
+  const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, 1, 1,
+                                                 CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  std::vector<cl::Device> parts;
+  cl::Device(info.device).createSubDevices(counts, &parts);
+  std::vector<std::unique_ptr<Device>> opened;
+  for (const auto& part : parts) {
+    DeviceInfo its = info;
+    its.device = part;
+    its.compute_units = 1;
+    opened.push_back(std::make_unique<Device>(its));
+  }
+  Scene scene = load_scene(scenes + "cornell_box.json");
+  scene.renderer.passes = passes + 1;
+  const auto seconds_per_pass = [&](const std::vector<Device*>& devices) {
+    Stopwatch watch;
+    double first = 0;  // which several devices do whole, each
+    render_scene(scene, devices, {}, [&](const Progress& progress) {
+      if (progress.pass == 1) first = watch.elapsed().wall;
+    });
+    return (watch.elapsed().wall - first) / passes;
+  };
+  SeveralBenchResult result;
+  result.one = seconds_per_pass({opened[0].get()});
+  result.two = seconds_per_pass({opened[0].get(), opened[1].get()});
   return result;
 }
 

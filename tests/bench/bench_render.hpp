@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,13 @@ struct StartBenchResult {
   double cold_build = 0, warm_build = 0;  // of that, building programs from source
 };
 StartBenchResult bench_start(const std::string& device_spec);
+
+/// Seconds a pass of the Cornell box on a device of one compute unit, and on two such that share the passes;
+/// both are parts of the CPU. None on other devices and on one compute unit.
+struct SeveralBenchResult {
+  double one = 0, two = 0;
+};
+std::optional<SeveralBenchResult> bench_several(const DeviceInfo& info, int passes);
 
 std::string render_table(const std::vector<RenderBenchResult>& results);
 nlohmann::json render_json(const std::vector<RenderBenchResult>& results);
