@@ -199,7 +199,7 @@ OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const P
     uint kk = k0 + k >= grid.nz ? k0 + k - grid.nz : k0 + k;
     for (uint j = 0; j < nj; ++j) {
       uint jj = j0 + j >= grid.ny ? j0 + j - grid.ny : j0 + j;
-      global const uint *row = starts + (kk * grid.ny + jj) * grid.nx;
+      global const uint *row = starts + grid.first_bucket + (kk * grid.ny + jj) * grid.nx;
       for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
         uint begin = part == 0 ? row[i0] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && segment)

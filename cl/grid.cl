@@ -16,7 +16,12 @@ INLINE uint grid_bucket(Grid grid, real3 p) {
   uint i = grid_wrap(grid_coordinate(p.x, grid.origin.x, grid.origin.w), grid.nx);
   uint j = grid_wrap(grid_coordinate(p.y, grid.origin.y, grid.origin.w), grid.ny);
   uint k = grid_wrap(grid_coordinate(p.z, grid.origin.z, grid.origin.w), grid.nz);
-  return (k * grid.ny + j) * grid.nx + i;
+  return grid.first_bucket + (k * grid.ny + j) * grid.nx + i;
+}
+
+// The bucket of a photon at p with that word of marks and normal.
+INLINE uint photon_bucket(PhotonGrids grids, real3 p, uint normal) {
+  return grid_bucket(grids.grid[grids.separate && (normal & INDIRECT_PHOTON) ? INDIRECT_PHOTONS : FOCUSED_PHOTONS], p);
 }
 
 // A unit normal in 24 bits, eight a component. Coarse, and enough to tell the sides of a surface and the

@@ -14,22 +14,34 @@ INLINE Gathered gather_visible_segment(Grid grid, global const uint *starts, glo
   return gather_medium(grid, starts, sorted, segment, length, radius2);
 }
 
-// photon_counts[i] = photons within sqrt(params.radius2) of visible point i; COUNT_NOTHING where the path met no
-// diffuse surface. For choosing the first radius.
+// The square of the radius within which photons of a kind are gathered, over that of focused ones.
+INLINE real kind_radius2(const Params *params, uint kind) {
+  return kind == INDIRECT_PHOTONS ? (real)params->indirect_radius * params->indirect_radius : (real)1;
+}
+
+// photon_counts[i] = photons of a kind within its radius around visible point i, over the square of that radius, in units of
+// params.radius2, and rounded; COUNT_NOTHING where the path met no diffuse surface. For choosing the first radius.
 #define COUNT_NOTHING 0xffffffffu
 kernel void count_around(global VisiblePoint *visible_points, global const uint *starts,
-                         global const PhotonBlock *sorted, global uint *photon_counts, Grid grid, Params params) {
+                         global const PhotonBlock *sorted, global uint *photon_counts, PhotonGrids grids,
+                         Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count * params.visible_points) return;
   VisiblePoint point = visible_points[i];
   real3 position = vload3(0, point.position);
-  if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0))
-    photon_counts[i] = COUNT_NOTHING;
-  else if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM))
-    photon_counts[i] =
-        gather_visible_segment(grid, starts, sorted, visible_points, i, &params, params.radius2).count;
-  else
-    photon_counts[i] = gather(grid, starts, sorted, position, normal_unpack(point.normal), params.radius2).count;
+  real count = 0;
+  bool nothing = !(point.weight[0] + point.weight[1] + point.weight[2] > 0);
+  bool in_medium = HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM);
+  for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
+    if (nothing || !grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
+    real wider = kind_radius2(&params, kind);
+    if (in_medium)
+      count = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i, &params, params.radius2).count;
+    else
+      count += gather(grids.grid[kind], starts, sorted, position, normal_unpack(point.normal), params.radius2 * wider).count /
+               wider;
+  }
+  photon_counts[i] = nothing ? COUNT_NOTHING : (uint)(count + (real)0.5f);
 }
 
 // Adds to each layer what the photons of it bring by `weight`; beyond the receiver all is indirect.
@@ -49,7 +61,7 @@ INLINE void layers_gathered(Radiance *radiance, const Gathered *sum, real3 weigh
 // params.radius2 > 0 that radius holds for all pixels.
 kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel *pixels,
                            global FilmPixel *film, global const uint *starts, global const PhotonBlock *sorted,
-                           volatile global Counters *counters, Grid grid, Params params) {
+                           volatile global Counters *counters, PhotonGrids grids, Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count) return;
   uint index = params.first_pixel + i;
@@ -68,20 +80,28 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
         radiance.layer[k] += vload3(0, layers[i * params.visible_points + s].radiance[k]);
     }
     real3 weight = vload3(0, point.weight);
-    if (!(max_component(weight) > 0) || grid.photon_count == 0) continue;
-    Gathered sum;
-    if (HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM)) {
-      real g = params.extinction.w;
-      sum = gather_visible_segment(grid, starts, sorted, visible_points, i * params.visible_points + s, &params, radius2);
-      weight *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
-    } else {
-      sum = gather(grid, starts, sorted, vload3(0, point.position), normal_unpack(point.normal), radius2);
+    if (!(max_component(weight) > 0)) continue;
+    bool in_medium = HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM);
+    for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
+      if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
+      Gathered sum;
+      real wider = kind_radius2(&params, kind);
+      real3 share = weight / wider;
+      if (in_medium) {
+        real g = params.extinction.w;
+        sum = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i * params.visible_points + s, &params,
+                                     radius2);
+        share *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
+      } else {
+        sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), normal_unpack(point.normal),
+                     radius2 * wider);
+      }
+      reflected += share * (real3)(sum.red, sum.green, sum.blue);
+      reflected_near += share * (real3)(sum.near_red, sum.near_green, sum.near_blue);
+      found = add_sat(found, sum.count);
+      if (HAS(OUTPUT_LAYERS) && sum.count > 0)
+        layers_gathered(&radiance, &sum, share * density, point.normal & BEYOND_RECEIVER);
     }
-    reflected += weight * (real3)(sum.red, sum.green, sum.blue);
-    reflected_near += weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
-    found = add_sat(found, sum.count);
-    if (HAS(OUTPUT_LAYERS) && sum.count > 0)
-      layers_gathered(&radiance, &sum, weight * density, point.normal & BEYOND_RECEIVER);
   }
   real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
   if (found > 0) radiance.sum += reflected * density;

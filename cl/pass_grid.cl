@@ -6,12 +6,13 @@
 
 INLINE real3 photon_position(global const Photon *photon) { return vload3(0, photon->position); }
 
-// counts[b] = photons in bucket b; must be zero before. ranks[i] = those counted there before photon i: in an order
+// counts[b] = photons in bucket b of both grids; must be zero before. ranks[i] = those counted there before photon i: in an order
 // that execution gives, and nothing that follows depends on it, since sums over photons are sums of integers.
-kernel void count_photons(global const Photon *photons, volatile global uint *counts, global uint *ranks, Grid grid) {
+kernel void count_photons(global const Photon *photons, volatile global uint *counts, global uint *ranks,
+                          PhotonGrids grids) {
   uint i = get_global_id(0);
-  if (i >= grid.photon_count) return;
-  ranks[i] = atomic_inc(counts + grid_bucket(grid, photon_position(photons + i)));
+  if (i >= grids.photon_count) return;
+  ranks[i] = atomic_inc(counts + photon_bucket(grids, photon_position(photons + i), photons[i].normal));
 }
 
 // sums[s] = total of segment s of `counts`, which has `size` entries.
@@ -48,14 +49,14 @@ kernel void scan_segments(global const uint *counts, global const uint *sums, gl
 
 // Moves photons to their bucket's range. The lanes of the last block that are left hold nothing.
 kernel void move_photons(global const Photon *photons, global const uint *ranks, global const uint *starts,
-                         global PhotonBlock *sorted, Grid grid) {
+                         global PhotonBlock *sorted, PhotonGrids grids) {
   uint i = get_global_id(0);
   Photon photon = {{0, 0, 0}, 0, 0, 0};
   uint slot = i;
-  if (i < grid.photon_count) {
+  if (i < grids.photon_count) {
     photon = photons[i];
-    slot = starts[grid_bucket(grid, photon_position(photons + i))] + ranks[i];
-  } else if (i >= (grid.photon_count + 7) / 8 * 8) {
+    slot = starts[photon_bucket(grids, photon_position(photons + i), photon.normal)] + ranks[i];
+  } else if (i >= (grids.photon_count + 7) / 8 * 8) {
     return;
   }
   global PhotonBlock *block = sorted + slot / 8;

@@ -24,6 +24,7 @@ typedef struct {
   local Photon *staged;   // of this item alone
   uint room;              // in `staged`
   uint count;             // how many are there
+  uint indirect;          // how many were stored that are marked INDIRECT_PHOTON, there or not
   global Photon *photons; // the buffer of the pass, and what it holds
   uint capacity;
   volatile global Counters *counters;
@@ -45,6 +46,7 @@ INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 
   photon.flux_rg = r | g << 16;
   photon.flux_b = b;
   if (HAS(OUTPUT_LAYERS)) photon.flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
+  if (!(normal & IN_MEDIUM) && (normal & INDIRECT_PHOTON)) ++store->indirect;
   if (store->count < store->room) {
     store->staged[store->count++] = photon;
     return;
@@ -60,7 +62,7 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
   real3 flux;
   Ray ray = photon_emit(scene, stream, &flux);
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
-  uint rays = 0, history = HISTORY_STRAIGHT;
+  uint rays = 0, history = HISTORY_STRAIGHT, mark = 0;
   Interior interior = interior_none();
   for (uint depth = 0; depth < params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
@@ -84,6 +86,7 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
         ray.origin = position;
         ray.direction = phase_sample(scene->medium.g, ray.direction, random.xy);
         history = history_after(history, false);
+        mark = INDIRECT_PHOTON;
         continue;
       }
     }
@@ -116,14 +119,15 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
         if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
         bool front = dot(surface.geometric_normal, ray.direction) < 0;
         photon_store(store, surface.position,
-                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal), landed, history,
-                     random_at(stream, depth, DIM_QUANTISE));
+                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal) | mark, landed,
+                     history, random_at(stream, depth, DIM_QUANTISE));
       }
     }
     if (depth + 1 == params->max_depth) break;
 
     if (plastic) plastic_choose(&bsdf, ray.direction, n, random.z);
     history = history_after(history, bsdf_is_specular(&bsdf));
+    if (bsdf.kind == MATERIAL_DIFFUSE) mark = INDIRECT_PHOTON;
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
     if (bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf)) {
       flux *= shading_normal_arrival(&surface, ray.direction);
@@ -146,9 +150,9 @@ OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, P
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params) {
   local Photon staged[STAGED_PHOTONS];
-  local uint group_rays[LARGEST_WORK_GROUP], places[LARGEST_WORK_GROUP + 1];
+  local uint group_numbers[LARGEST_WORK_GROUP], places[LARGEST_WORK_GROUP + 1];
   uint index = get_global_id(0), room = STAGED_PHOTONS / get_local_size(0), rays = 0;
-  PhotonStore store = {staged + get_local_id(0) * room, room, 0, photons, params.photon_capacity, counters};
+  PhotonStore store = {staged + get_local_id(0) * room, room, 0, 0, photons, params.photon_capacity, counters};
   if (index < params.photon_count) {
     SCENE_INIT(params);
     rays = photon_path(&scene, &params, params.first_photon + index, &store);
@@ -156,5 +160,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   uint first = group_reserve(store.count, places, &counters->photons);
   for (uint i = 0; i < store.count; ++i)
     if (first + i < params.photon_capacity) photons[first + i] = store.staged[i];
-  group_add(rays, group_rays, &counters->rays);
+  group_add(rays, group_numbers, &counters->rays);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  group_add(store.indirect, group_numbers, &counters->indirect);
 }

@@ -220,7 +220,8 @@ typedef struct {
   uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
   uint delta_lights;         // how many of the emitters are point, spot and directional lights
   uint first_photon;         // of those that this launch traces: photons [first_photon, first_photon + photon_count) of
-  uint unused;               //   the pass; several devices share them
+                             //   the pass; several devices share them
+  float indirect_radius;     // the radius within which indirect photons are gathered, over that of the others
 } Params;
 CHECK_SIZE(Params, 224);
 
@@ -271,6 +272,10 @@ CHECK_SIZE(PixelError, 16);
 #define IN_MEDIUM 0x80000000u
 // The mark of visible points whose path was scattered before by other than a perfectly specular lobe: their `normal`.
 #define BEYOND_RECEIVER 0x40000000u
+// The mark of photons that landed on a surface after another diffuse one, or the medium, had scattered them: their
+// `normal`. Light that came so is smooth where caustics and the borders of shadows are sharp, and may be gathered within
+// a larger radius (Jensen, "Global Illumination using Photon Maps", 1996, keeps two maps for the same reason).
+#define INDIRECT_PHOTON 0x40000000u
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium
@@ -338,9 +343,23 @@ CHECK_SIZE(PhotonBlock, 192);
 typedef struct {
   float4 origin;       // of the cube (0, 0, 0); w: 1 / cell
   uint nx, ny, nz;
-  uint photon_count;   // stored photons
+  uint first_bucket;   // of the table that both grids of a photon map share
 } Grid;
 CHECK_SIZE(Grid, 32);
+
+// The kinds of photons that a map tells apart.
+#define FOCUSED_PHOTONS 0u   // straight from a light or by specular surfaces and rough lobes alone; all in the medium
+#define INDIRECT_PHOTONS 1u  // marked INDIRECT_PHOTON
+#define PHOTON_KINDS 2u
+
+// The grids of a photon map: each kind's own, or with separate = 0 that of FOCUSED_PHOTONS for all.
+typedef struct {
+  Grid grid[PHOTON_KINDS];
+  uint present[PHOTON_KINDS];  // 0 where there is none of the kind
+  uint separate;
+  uint photon_count;   // of all kinds
+} PhotonGrids;
+CHECK_SIZE(PhotonGrids, 80);
 
 // Items of a work-group, at most: kernels keep a number for each in local memory.
 #define LARGEST_WORK_GROUP 256u
@@ -348,12 +367,13 @@ CHECK_SIZE(Grid, 32);
 // Counts that kernels add to; each wraps at 2^32 and is read as differences.
 typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
+  uint indirect;       // those of them that are marked INDIRECT_PHOTON
   uint rays;           // traced, shadow rays included
   uint non_finite;     // samples that were NaN or Inf and were left out
   uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
   uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
   uint traversal_bound;  // rays whose walk through the tree was cut short
-  uint unused[2];
+  uint unused;
 } Counters;
 CHECK_SIZE(Counters, 32);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "error.hpp"
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr std::size_t scan_segment = 256;           // SCAN_SEGMENT of cl/pass_grid.cl
 constexpr std::size_t photon_bytes_in_double = 40;  // CHECK_SIZE of cl/types.h
+
+std::size_t buckets_of(const Grid& grid) { return std::size_t{grid.nx} * grid.ny * grid.nz; }
 
 std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 1) / scan_segment; }
 
@@ -32,7 +35,7 @@ void PhotonMap::prepare() {
 }
 
 Counters PhotonMap::trace(Params params) {
-  stored_ = 0;
+  stored_ = indirect_ = 0;
   if (params.photon_count == 0) return device_.download<Counters>(counters_, 1)[0];
   // Two stored photons for each emitted one are usual; a closed white room wants more, and gets it below.
   if (!reserve_photons(2ull * params.photon_count))
@@ -40,7 +43,7 @@ Counters PhotonMap::trace(Params params) {
                     " photons a pass are more than this device can store; use fewer a pass and more passes");
   for (;;) {
     params.photon_capacity = capacity_;
-    device_.clear(counters_, sizeof(cl_uint));
+    device_.clear(counters_, offsetof(Counters, rays));  // what follows counts on
     set_scene_arguments(trace_photons_, scene_);
     trace_photons_.setArg(first_argument_, photons_);
     trace_photons_.setArg(first_argument_ + 1, counters_);
@@ -48,13 +51,27 @@ Counters PhotonMap::trace(Params params) {
     device_.launch_pass(trace_photons_, params.photon_count);
     const Counters counters = device_.download<Counters>(counters_, 1)[0];
     stored_ = std::min(counters.photons, capacity_);
+    indirect_ = std::min(counters.indirect, stored_);
     if (counters.photons <= capacity_) return counters;
     if (full_ || !reserve_photons(counters.photons + counters.photons / 8ull)) {
       full_ = true;
       dropped_ += counters.photons - capacity_;
+      indirect_ = count_indirect(records());  // of all that wanted room, not of those that found it
       return counters;
     }
   }
+}
+
+/// How many of these records are of indirect photons.
+std::uint32_t PhotonMap::count_indirect(std::span<const std::byte> records) const {
+  const std::size_t normal = 3 * (photon_bytes_ == photon_bytes_in_double ? sizeof(double) : sizeof(float));
+  std::uint32_t count = 0;
+  for (std::size_t at = normal; at < records.size(); at += photon_bytes_) {
+    uint word;
+    std::memcpy(&word, records.data() + at, sizeof word);
+    count += !(word & IN_MEDIUM) && (word & INDIRECT_PHOTON);
+  }
+  return count;
 }
 
 std::vector<std::byte> PhotonMap::records() {
@@ -66,11 +83,13 @@ void PhotonMap::set_records(const std::vector<std::vector<std::byte>>& parts) {
   for (const auto& part : parts) wanted += part.size() / photon_bytes_;
   if (wanted > capacity_ && (full_ || !reserve_photons(wanted + wanted / 8))) full_ = true;
   stored_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, capacity_));
+  indirect_ = 0;
   dropped_ += wanted - stored_;
   std::size_t at = 0;
   const std::size_t end = stored_ * photon_bytes_;
   for (const auto& part : parts) {
     const std::size_t bytes = std::min(part.size(), end - at);
+    if (bytes > 0) indirect_ += count_indirect({part.data(), bytes});
     if (bytes > 0) device_.queue().enqueueWriteBuffer(photons_, CL_TRUE, at, bytes, part.data());
     at += bytes;
   }
@@ -99,22 +118,42 @@ void PhotonMap::reserve_buckets(std::size_t buckets) {
   bucket_capacity_ = buckets;
 }
 
-void PhotonMap::sort(double cell) {
+/// Cubes of that size for so many photons, whose buckets begin at `first_bucket`.
+Grid PhotonMap::grid_of(double cell, std::uint32_t photons, std::size_t first_bucket) const {
+  Grid grid{};
   // As many buckets along an axis as there are cubes across the scene, but in all no more than about two for
   // each photon: a larger table costs more to clear and sum than its collisions cost to skip.
   const double across = std::ceil(2 * scene_.extent / cell);
-  const double affordable = std::min(2.8 * std::max<std::uint32_t>(stored_, 2048), std::pow(512.0, 3));
-  uint* const axes[] = {&grid_.nx, &grid_.ny, &grid_.nz};
-  grid_.nx = grid_.ny = grid_.nz = 1;
+  const double affordable = std::min(2.8 * std::max<std::uint32_t>(photons, 2048), std::pow(512.0, 3));
+  uint* const axes[] = {&grid.nx, &grid.ny, &grid.nz};
+  grid.nx = grid.ny = grid.nz = 1;
   std::size_t buckets = 1;
   for (int doublings = 0; *axes[doublings % 3] < across && 2.0 * static_cast<double>(buckets) <= affordable;
        ++doublings) {
     *axes[doublings % 3] *= 2;
     buckets *= 2;
   }
-  grid_.origin = {static_cast<float>(scene_.center.x), static_cast<float>(scene_.center.y),
-                  static_cast<float>(scene_.center.z), static_cast<float>(1 / cell)};
-  grid_.photon_count = stored_;
+  grid.origin = {static_cast<float>(scene_.center.x), static_cast<float>(scene_.center.y),
+                 static_cast<float>(scene_.center.z), static_cast<float>(1 / cell)};
+  grid.first_bucket = static_cast<uint>(first_bucket);
+  return grid;
+}
+
+void PhotonMap::sort(double radius, double indirect_radius) {
+  const std::uint32_t focused = stored_ - indirect_;
+  grids_ = {};
+  grids_.photon_count = stored_;
+  grids_.separate = indirect_radius != radius && indirect_ > 0;
+  grids_.present[FOCUSED_PHOTONS] = grids_.separate ? focused > 0 : stored_ > 0;
+  grids_.present[INDIRECT_PHOTONS] = grids_.separate;
+  grids_.grid[FOCUSED_PHOTONS] = grid_of(2 * radius, grids_.separate ? focused : stored_, 0);
+  std::size_t buckets = buckets_of(grids_.grid[FOCUSED_PHOTONS]);
+  if (grids_.separate) {
+    // A larger radius holds more photons, and smaller cubes fewer in vain: of cubes of two radii a fifth lies
+    // within the radius, of one a third.
+    grids_.grid[INDIRECT_PHOTONS] = grid_of(indirect_radius, indirect_, buckets);
+    buckets += buckets_of(grids_.grid[INDIRECT_PHOTONS]);
+  }
   if (stored_ == 0) return;
 
   if (!count_photons_()) {
@@ -134,7 +173,7 @@ void PhotonMap::sort(double cell) {
     sorted_capacity_ = in_blocks;
   }
   device_.clear(counts_, buckets * sizeof(cl_uint));
-  set_arguments(count_photons_, photons_, counts_, ranks_, grid_);
+  set_arguments(count_photons_, photons_, counts_, ranks_, grids_);
   device_.launch_pass(count_photons_, stored_);
   set_arguments(sum_segments_, counts_, sums_, static_cast<cl_uint>(buckets));
   device_.launch_pass(sum_segments_, segments_of(buckets));
@@ -142,7 +181,7 @@ void PhotonMap::sort(double cell) {
   device_.launch_pass(scan_sums_, 1);
   set_arguments(scan_segments_, counts_, sums_, starts_, static_cast<cl_uint>(buckets));
   device_.launch_pass(scan_segments_, segments_of(buckets));
-  set_arguments(move_photons_, photons_, ranks_, starts_, sorted_, grid_);
+  set_arguments(move_photons_, photons_, ranks_, starts_, sorted_, grids_);
   device_.launch_pass(move_photons_, in_blocks);
 }
 

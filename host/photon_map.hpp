@@ -1,6 +1,8 @@
 // The photons of a pass: traced, then counting-sorted into a grid.
 #pragma once
 
+#include <span>
+
 #include "integrator.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
@@ -25,13 +27,14 @@ class PhotonMap {
   /// Puts these in their place. Where the device has no room for them, those beyond are dropped and counted.
   void set_records(const std::vector<std::vector<std::byte>>& parts);
 
-  /// Enqueues the sort into cubes with edges of `cell` units.
-  void sort(double cell);
+  /// Enqueues the sort for gathering within `radius`, and `indirect_radius` where photons are indirect. Where
+  /// the two are equal all share one grid.
+  void sort(double radius, double indirect_radius);
 
   std::uint32_t stored() const { return stored_; }
   /// Photons of all passes that found no room.
   std::uint64_t dropped() const { return dropped_; }
-  const Grid& grid() const { return grid_; }
+  const PhotonGrids& grids() const { return grids_; }
   const cl::Buffer& starts() const { return starts_; }
   const cl::Buffer& sorted() const { return sorted_; }
 
@@ -43,12 +46,14 @@ class PhotonMap {
   cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record as traced; a sorted one takes no more
   cl::Buffer counters_, photons_, sorted_, ranks_, counts_, sums_, starts_;
-  std::uint32_t capacity_ = 0, stored_ = 0;
+  std::uint32_t capacity_ = 0, stored_ = 0, indirect_ = 0;  // indirect: those of the stored
   std::uint64_t dropped_ = 0;
   bool full_ = false;  // the device has no room for a larger buffer
   std::size_t sorted_capacity_ = 0, bucket_capacity_ = 0;
-  Grid grid_{};
+  PhotonGrids grids_{};
 
+  std::uint32_t count_indirect(std::span<const std::byte> records) const;
+  Grid grid_of(double cell, std::uint32_t photons, std::size_t first_bucket) const;
   void reserve_buckets(std::size_t buckets);
   bool reserve_photons(std::uint64_t wanted);
 };

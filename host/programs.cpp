@@ -10,8 +10,11 @@ namespace {
 
 /// Bytes of a scalar argument of a pass, by the name of its type; 0 for a type that no pass has.
 std::size_t scalar_size(const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes{
-      {"Params", sizeof(Params)}, {"Grid", sizeof(Grid)}, {"uint", 4}, {"int", 4}, {"float", 4}};
+  static const std::map<std::string, std::size_t> sizes{{"Params", sizeof(Params)},
+                                                        {"PhotonGrids", sizeof(PhotonGrids)},
+                                                        {"uint", 4},
+                                                        {"int", 4},
+                                                        {"float", 4}};
   const auto found = sizes.find(type);
   return found == sizes.end() ? 0 : found->second;
 }
@@ -24,7 +27,7 @@ std::string text_of(std::string text) {
 
 /// Sets every buffer to `empty` and every scalar to zeros. False where a scalar is of unknown size.
 bool set_zero_arguments(cl::Kernel& kernel, const cl::Buffer& empty) {
-  const std::vector<unsigned char> zeros(std::max(sizeof(Params), sizeof(Grid)), 0);
+  const std::vector<unsigned char> zeros(std::max(sizeof(Params), sizeof(PhotonGrids)), 0);
   const auto count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
   for (cl_uint i = 0; i < count; ++i) {
     if (kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL) {

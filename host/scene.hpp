@@ -98,6 +98,7 @@ struct RendererSpec {
   std::int64_t photons = 250000;  // sppm: per pass
   int passes = 64;                // sppm
   std::optional<double> radius;   // first search radius; chosen from the scene where absent
+  double indirect_radius = 2;     // of indirect photons, over that of the others
   double alpha = 0.7;
   double radius_decay = 0.95;  // Schedule::geometric
   Schedule schedule = Schedule::pixel;

@@ -9,8 +9,9 @@ namespace {
 constexpr std::int64_t count_limit = 1 << 30;
 
 const std::vector<std::string> renderer_keys{
-    "type",  "sample",   "view_point_sample", "photon_sample", "rounds",  "radius",        "radius_decay",
-    "alpha", "schedule", "direct_light",      "light_pos",     "light_r", "light_radiance"};
+    "type",           "sample",         "view_point_sample", "photon_sample", "rounds",    "radius",
+    "radius_decay",   "alpha",          "schedule",          "direct_light",  "light_pos", "light_r",
+    "light_radiance", "indirect_radius"};
 
 }  // namespace
 
@@ -26,6 +27,8 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   renderer.photons = json.integer("photon_sample", renderer.photons, 1, count_limit);
   renderer.passes = static_cast<int>(json.integer("rounds", renderer.passes, 1, count_limit));
   if (const auto radius = json.find("radius")) renderer.radius = radius->number(positive_number);
+  renderer.indirect_radius =
+      json.number("indirect_radius", renderer.indirect_radius, {1, 100, "a number from 1 to 100"});
   renderer.alpha = json.number("alpha", renderer.alpha, open_unit_number);
   renderer.radius_decay =
       json.number("radius_decay", renderer.radius_decay, {1e-6, 1, "a number from 1e-6 to 1"});

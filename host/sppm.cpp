@@ -37,6 +37,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
+  params_.indirect_radius = static_cast<float>(spec_.indirect_radius);
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
   visible_points_ =
@@ -101,9 +102,9 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
-    photon_map_.sort(2 * radius);
+    photon_map_.sort(radius, radius * spec_.indirect_radius);
     set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
-                  photon_map_.grid(), params);
+                  photon_map_.grids(), params);
     device_.launch_pass(count_around, params.pixel_count);
     auto found = device_.download<cl_uint>(counts, params.pixel_count);
     std::erase(found, 0xffffffffu);  // COUNT_NOTHING of cl/pass_gather.cl
@@ -138,11 +139,11 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
   emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
-  const double cell = 2 * std::sqrt(schedule_radius2_);
-  photon_map_.sort(cell);
+  const double radius = std::sqrt(schedule_radius2_);
+  photon_map_.sort(radius, radius * spec_.indirect_radius);
   // Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
   params_.segment =
-      static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 2 * cell));
+      static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 4 * radius));
 
   const std::size_t end = share_.end_of(film_.pixels());
   for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
@@ -152,7 +153,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
     device_.launch_pass(trace_camera_,
                         static_cast<std::size_t>(params_.pixel_count) * params_.visible_points);
     set_arguments(gather_photons_, visible_points_, pixels_, film_.buffer(), photon_map_.starts(),
-                  photon_map_.sorted(), counters_, photon_map_.grid(), params_);
+                  photon_map_.sorted(), counters_, photon_map_.grids(), params_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
   }
   advance_schedule(pass);

@@ -107,6 +107,14 @@ const std::vector<Knob>& study_knobs() {
          return overrides("renderer.radius", "",
                           {short_number(c.first_radius / 2), short_number(c.first_radius * 2)});
        }},
+      {"indirect_radius", "Radius for indirect light", "times the search radius",
+       "Light that surfaces have scattered before is smooth, so that a larger radius takes noise from it and "
+       "blurs little.",
+       true, [](Context c) { return short_number(c.scene.renderer.indirect_radius); },
+       [](Context c) {
+         return overrides("renderer.indirect_radius", short_number(c.scene.renderer.indirect_radius),
+                          {"1", "2", "4"});
+       }},
       {"direct_light", "Direct light", "",
        "Light that comes straight from a lamp can be found by shadow rays, or by photons like all other "
        "light.",

@@ -57,16 +57,17 @@ StudySetting reference_setting(const StudySession& session) {
     return {"reference", "", merged_words(session.own_words, {"--integrator", "pt"}), true};
   return {
       "reference", "",
-      merged_words(session.own_words,
-                   {"--integrator", "sppm", "-D", "renderer.schedule=global", "-D", "renderer.alpha=0.6667",
-                    "-D", "renderer.radius=" + short_number(session.study.first_radius / 2)}),
+      merged_words(session.own_words, {"--integrator", "sppm", "-D", "renderer.schedule=global", "-D",
+                                       "renderer.alpha=0.6667", "-D", "renderer.indirect_radius=1", "-D",
+                                       "renderer.radius=" + short_number(session.study.first_radius / 2)}),
       false};
 }
 
 std::string description(const StudySetting& setting, unsigned long long passes) {
   if (setting.path_traced) return "path tracing with " + std::to_string(passes) + " samples a pixel";
   return "photon mapping with " + std::to_string(passes) +
-         " passes, the global schedule, alpha 2/3 and half the first radius (what little it blurs is not in "
+         " passes, the global schedule, alpha 2/3 and half the first radius for all light (what little it "
+         "blurs is not in "
          "its noise)";
 }
 

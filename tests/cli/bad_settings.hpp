@@ -37,6 +37,8 @@ inline constexpr BadScene bad_settings[] = {
      "scene.json:3: /renderer/alpha: expected a number between 0 and 1, both excluded, got -0.7"},
     {"negative radius of search", "\"rounds\": 2", "\"radius\": -1",
      "scene.json:3: /renderer/radius: expected a positive number from 1e-12 to 1e12, got -1"},
+    {"radius of indirect light below that of the rest", "\"rounds\": 2", "\"indirect_radius\": 0.5",
+     "scene.json:3: /renderer/indirect_radius: expected a number from 1 to 100, got 0.5"},
     {"radius_decay above 1", "\"rounds\": 2", "\"radius_decay\": 1.5",
      "scene.json:3: /renderer/radius_decay: expected a number from 1e-6 to 1, got 1.5"},
     {"no photons", "\"rounds\": 2", "\"photon_sample\": 0",

@@ -114,7 +114,7 @@ TEST_CASE("the gather equals brute force exactly for every table, radius and pla
       photons.push_back(photon_at(random, p + Vec3{0, i % 2 ? c.radius : -c.radius, 0}));
       photons.back().normal = near.normal;
     }
-    const Grid grid = make_grid(c.origin, c.cell, c.nx, c.ny, c.nz, photons.size());
+    const Grid grid = make_grid(c.origin, c.cell, c.nx, c.ny, c.nz);
     auto points = points_near(random, photons, c.space, c.radius, 1024);
     for (int i = 0; i < 200; ++i)
       points.push_back(
@@ -131,7 +131,7 @@ TEST_CASE("gathered sums depend neither on the order of photons nor on the work-
   const Space room{{0, 0, 0}, 1};
   std::vector<Photon> photons;
   for (int i = 0; i < 200000; ++i) photons.push_back(photon_at(random, room.position(random)));
-  const Grid grid = make_grid({}, 0.1, 16, 16, 16, photons.size());
+  const Grid grid = make_grid({}, 0.1, 16, 16, 16);
   const auto points = points_near(random, photons, room, 0.05, 4096);
   const auto expected = gather(points, photons, grid, 0.0025f);
   CHECK(found(expected) > 4096);
@@ -154,7 +154,7 @@ TEST_CASE("a cell of more photons than the lanes can add up is summed exactly") 
         {{float(random.uniform(0, 0.01)), 0, float(random.uniform(0, 0.01))}, normal, 0xffffffffu, 0xffffu});
   std::vector<GatherPoint> points;
   for (int i = 0; i < 16; ++i) points.push_back({0.005f, 0, 0.005f, normal});
-  const auto sums = gather(points, photons, make_grid({-1, -1, -1}, 0.2, 16, 16, 16, count), 0.01f);
+  const auto sums = gather(points, photons, make_grid({-1, -1, -1}, 0.2, 16, 16, 16), 0.01f);
   const std::uint64_t flux = count * 65535;
   const GatherSums expected{flux, flux, flux, count, flux, flux, flux};
   for (const auto& sum : sums) CHECK((sum == expected));
@@ -165,7 +165,7 @@ TEST_CASE("photons of the other side, of another wall or of no place are not fou
   const auto at = [](Vec3 n) { return Photon{{0, 0, 0}, pack_normal(n), 1 | 1 << 16, 1}; };
   const std::vector<GatherPoint> points{{0, 0, 0, pack_normal(up)}};
   const auto count = [&](const Photon& photon) {
-    return gather(points, {photon}, make_grid({}, 1, 4, 4, 4, 1), 1)[0].count;
+    return gather(points, {photon}, make_grid({}, 1, 4, 4, 4), 1)[0].count;
   };
   CHECK(count(at(up)) == 1);
   CHECK(count(at(-up)) == 0);
@@ -178,16 +178,22 @@ TEST_CASE("photons of the other side, of another wall or of no place are not fou
   lost.position[1] = INFINITY;
   CHECK(count(lost) == 0);
   // An empty map.
-  CHECK((gather(points, {}, make_grid({}, 1, 4, 4, 4, 0), 1)[0] == GatherSums{}));
+  CHECK((gather(points, {}, make_grid({}, 1, 4, 4, 4), 1)[0] == GatherSums{}));
 }
 
 TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pixel") {
   RandomInputs random(84);
   constexpr uint pixels = 500, first = 100, samples = 4;
   const Space room{{0, 0, 0}, 1};
-  std::vector<Photon> photons;
-  for (int i = 0; i < 60000; ++i) photons.push_back(photon_at(random, room.position(random)));
-  const Grid grid = make_grid({}, 0.2, 8, 8, 8, photons.size());
+  std::vector<Photon> photons, of_kind[PHOTON_KINDS];
+  for (int i = 0; i < 60000; ++i) {
+    photons.push_back(photon_at(random, room.position(random)));
+    const bool indirect = random.uniform() < 0.6;
+    if (indirect) photons.back().normal |= INDIRECT_PHOTON;
+    of_kind[indirect ? INDIRECT_PHOTONS : FOCUSED_PHOTONS].push_back(photons.back());
+  }
+  const PhotonGrids grids =
+      two_grids(make_grid({}, 0.2, 8, 8, 8), make_grid({}, 0.17, 16, 8, 4), photons.size());
   std::vector<VisiblePoint> visible(pixels * samples);
   std::vector<GatherPoint> points;
   for (auto& v : visible) {
@@ -212,7 +218,8 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   params.visible_points = samples;
   params.photon_flux = 0.125f;
   params.alpha = 0.7f;
-  const SortedPhotons map = sort_photons(test_device(), program(), photons, grid);
+  params.indirect_radius = 1.7f;
+  const SortedPhotons map = sort_photons(test_device(), program(), photons, grids);
   auto in = test_device().upload(visible, "visible points");
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
 
@@ -224,14 +231,16 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
     auto film = test_device().buffer((first + pixels) * sizeof(FilmPixel), "film");
     test_device().clear(film, (first + pixels) * sizeof(FilmPixel));
     test_device().clear(counter, sizeof(Counters));
-    run_kernel(program(), "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter, grid,
+    run_kernel(program(), "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter, grids,
                params);
     const auto out = test_device().download<FilmPixel>(film, first + pixels);
     const auto after = test_device().download<SppmPixel>(state, first + pixels);
     CHECK(test_device().download<Counters>(counter, 1)[0].non_finite == 1);
 
     const float radius2 = shared_radius2 > 0 ? shared_radius2 : 0.01f;
-    const auto sums = brute_force(points, photons, radius2);
+    const float wider = 1.7f * 1.7f;
+    const auto focused = brute_force(points, of_kind[FOCUSED_PHOTONS], radius2);
+    const auto indirect = brute_force(points, of_kind[INDIRECT_PHOTONS], radius2 * wider);
     double worst = 0, worst_radius = 0, worst_blur = 0, largest_blur = 0;
     std::size_t wrong = 0;
     for (uint i = 0; i < pixels; ++i) {
@@ -239,15 +248,19 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
       std::uint64_t count = 0;
       for (uint s = 0; s < samples; ++s) {
         const VisiblePoint& v = visible[i * samples + s];
-        const GatherSums& sum = sums[i * samples + s];
-        if (v.weight[0] + v.weight[1] + v.weight[2] > 0) count += sum.count;
-        const std::uint64_t flux[3] = {sum.red, sum.green, sum.blue};
-        const std::uint64_t near[3] = {sum.near_red, sum.near_green, sum.near_blue};
+        const GatherSums &a = focused[i * samples + s], &b = indirect[i * samples + s];
+        if (v.weight[0] + v.weight[1] + v.weight[2] > 0) count += a.count + b.count;
+        const auto both = [&](std::uint64_t GatherSums::*sum) {
+          return double(a.*sum) + double(b.*sum) / wider;
+        };
+        const double flux[3] = {both(&GatherSums::red), both(&GatherSums::green), both(&GatherSums::blue)};
+        const double near[3] = {both(&GatherSums::near_red), both(&GatherSums::near_green),
+                                both(&GatherSums::near_blue)};
         constexpr double luminance[3] = {0.2126, 0.7152, 0.0722};
         for (int c = 0; c < 3; ++c) {
           const double density = v.weight[c] * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
-          radiance[c] += v.radiance[c] + density * double(flux[c]);
-          blur += luminance[c] * density * (double(flux[c]) - 4 * double(near[c])) / samples;
+          radiance[c] += v.radiance[c] + density * flux[c];
+          blur += luminance[c] * density * (flux[c] - 4 * near[c]) / samples;
         }
       }
       largest_blur = std::max(largest_blur, std::fabs(blur));
@@ -279,14 +292,17 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   // The count that chooses the first radius.
   params.radius2 = 0.01f;
   auto out = test_device().buffer(pixels * samples * sizeof(cl_uint), "counts");
-  run_kernel(program(), "count_around", pixels * samples, in, map.starts, map.sorted, out, grid, params);
+  run_kernel(program(), "count_around", pixels * samples, in, map.starts, map.sorted, out, grids, params);
   const auto counts = test_device().download<uint>(out, pixels * samples);
-  const auto sums = brute_force(points, photons, 0.01f);
+  const auto focused = brute_force(points, of_kind[FOCUSED_PHOTONS], 0.01f);
+  const auto indirect = brute_force(points, of_kind[INDIRECT_PHOTONS], 0.01f * (1.7f * 1.7f));
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const VisiblePoint& v = visible[i];
     const bool diffuse = v.weight[0] + v.weight[1] + v.weight[2] > 0;
-    wrong += counts[i] != (diffuse ? static_cast<uint>(sums[i].count) : 0xffffffffu);
+    wrong +=
+        counts[i] !=
+        (diffuse ? static_cast<uint>(focused[i].count + indirect[i].count / (1.7 * 1.7) + 0.5) : 0xffffffffu);
   }
   CHECK(wrong == 0);
 }

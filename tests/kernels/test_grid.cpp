@@ -70,10 +70,10 @@ TEST_CASE("the counting sort gives exact prefix sums and a permutation, whatever
       photon.flux_rg = static_cast<uint>(random.engine());
       photon.flux_b = static_cast<uint>(random.engine());
     }
-    const Grid grid = make_grid({0.1, -0.2, 0.3}, 0.05, c.nx, c.ny, c.nz, c.photons);
+    const Grid grid = make_grid({0.1, -0.2, 0.3}, 0.05, c.nx, c.ny, c.nz);
     const WorkGroupSize restored;
     test_device().set_local_size(c.local);
-    const SortedPhotons map = sort_photons(test_device(), program(), photons, grid);
+    const SortedPhotons map = sort_photons(test_device(), program(), photons, one_grid(grid, photons.size()));
     const auto starts = test_device().download<uint>(map.starts, bucket_count(grid) + 1);
 
     std::vector<uint> expected(bucket_count(grid) + 1);

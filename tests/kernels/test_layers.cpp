@@ -111,8 +111,8 @@ kernel void collect(global const float4 *points, global const uint *starts, glob
   const auto in = test_device().upload(points, "points");
   const uint count = static_cast<uint>(points.size());
   const auto collect = [&](const std::vector<Photon>& photons, bool in_medium) {
-    const Grid grid = make_grid({}, 0.2, 16, 16, 16, photons.size());
-    const SortedPhotons map = sort_photons(test_device(), program, photons, grid);
+    const Grid grid = make_grid({}, 0.2, 16, 16, 16);
+    const SortedPhotons map = sort_photons(test_device(), program, photons, one_grid(grid, photons.size()));
     auto out = test_device().buffer(points.size() * sizeof(Sums), "sums");
     run_kernel(program, "collect", points.size(), in, map.starts, map.sorted, out, grid, 0.01f,
                cl_uint(in_medium), count);
@@ -145,8 +145,8 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   constexpr uint pixels = 300, first = 50, samples = 4;
   auto program = build_test_program(gather_source, with_layers);
   const auto photons = random_photons(random, 10000, false);
-  const Grid grid = make_grid({}, 0.2, 8, 8, 8, photons.size());
-  const SortedPhotons map = sort_photons(test_device(), program, photons, grid);
+  const Grid grid = make_grid({}, 0.2, 8, 8, 8);
+  const SortedPhotons map = sort_photons(test_device(), program, photons, one_grid(grid, photons.size()));
 
   // Of a launch: visible points, then their layers.
   std::vector<VisiblePoint> visible(pixels * samples);
@@ -184,8 +184,8 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   const std::size_t film_bytes = (first + pixels) * (sizeof(FilmPixel) + sizeof(FilmLayers));
   auto film = test_device().buffer(film_bytes, "film");
   test_device().clear(film, film_bytes);
-  run_kernel(program, "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter, grid,
-             params);
+  run_kernel(program, "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter,
+             one_grid(grid, photons.size()), params);
   const auto sums =
       test_device().download<FilmLayers>(film, first + pixels, (first + pixels) * sizeof(FilmPixel));
   const auto whole = test_device().download<FilmPixel>(film, first + pixels);

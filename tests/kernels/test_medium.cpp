@@ -273,8 +273,8 @@ TEST_CASE("photons far from the peak of the phase function are worth what they s
                   1000u};
     for (int c = 0; c < 3; ++c) exact[c] += share * std::exp(-extinction[c] * along) * flux * 16777216;
   }
-  const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8, photon_count);
-  const auto sorted = sort_photons(test_device(), program(), photons, grid);
+  const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8);
+  const auto sorted = sort_photons(test_device(), program(), photons, one_grid(grid, photons.size()));
   auto where = test_device().upload(std::vector<float4>{{0, 0, 0, length}}, "points");
   auto out = test_device().buffer(8 * sizeof(cl_ulong), "sums");
   run_kernel(program(), "collect", 1, grid, sorted.starts, sorted.sorted, where, out, cl_uint(1),
@@ -315,8 +315,8 @@ TEST_CASE(
              static_cast<float>(random.uniform() < 0.1 ? 4 : random.uniform(0, 0.6))};
   const Vec3 towards = to_vec3(to_float4(random_direction(random))), extinction{0.3, 0, 2};
   for (const auto& [g, radius] : {std::pair{0.0, 0.1}, {0.6, 0.3}, {-0.9, 0.2}}) {
-    const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8, photon_count);
-    const auto sorted = sort_photons(test_device(), program(), photons, grid);
+    const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8);
+    const auto sorted = sort_photons(test_device(), program(), photons, one_grid(grid, photons.size()));
     auto where = test_device().upload(points, "points");
     auto out = test_device().buffer(2 * point_count * 4 * sizeof(cl_ulong), "sums");
     const auto radius2 = static_cast<float>(radius * radius);

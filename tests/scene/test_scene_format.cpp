@@ -43,12 +43,13 @@ TEST_CASE("renderers") {
   CHECK(renderer(R"({"type": "pt", "sample": 25000})").integrator == Integrator::pt);
   CHECK(renderer(R"({"type": "pt", "sample": 25000})").samples == 25000);
   const RendererSpec sppm = renderer(
-      R"({"type": "sppm", "view_point_sample": 1, "photon_sample": 1e6, "radius": 0.5, "alpha": 0.6, "rounds": 9,
+      R"({"type": "sppm", "view_point_sample": 1, "photon_sample": 1e6, "radius": 0.5, "alpha": 0.6, "rounds": 9, "indirect_radius": 3,
           "schedule": "geometric", "radius_decay": 0.9, "direct_light": "photons"})");
   CHECK(sppm.integrator == Integrator::sppm);
   CHECK(sppm.visible_points == 1);
   CHECK(sppm.photons == 1000000);
   CHECK(sppm.radius == 0.5);
+  CHECK(sppm.indirect_radius == 3);
   CHECK(sppm.alpha == 0.6);
   CHECK(sppm.passes == 9);
   CHECK(sppm.schedule == Schedule::geometric);

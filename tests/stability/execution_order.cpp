@@ -63,7 +63,7 @@ CheckResult sort_and_gather(CheckContext& context) {
     points.push_back({coordinate(), coordinate(), coordinate(), normal});
   }
   const auto program = context.program(gather_source, 0);
-  const Grid grid = make_grid({}, 1, 8, 8, 8, photon_count);
+  const Grid grid = make_grid({}, 1, 8, 8, 8);
   const auto expected = gather_photons(context.device, program, points, photons, grid, 0.25f);
   WorkGroups groups(context.device);
   do {

@@ -93,7 +93,7 @@ Map make_map(std::uint32_t number, std::uint32_t seed) {
                            static_cast<uint>(random.bits()),
                            static_cast<uint>(random.bits()) & 0xffffu});
   }
-  map.grid = make_grid(layout.grid_origin, layout.cell, layout.nx, layout.ny, layout.nz, layout.photons);
+  map.grid = make_grid(layout.grid_origin, layout.cell, layout.nx, layout.ny, layout.nz);
   map.radius2 = static_cast<float>(layout.radius * layout.radius);
   return map;
 }

@@ -26,12 +26,23 @@ inline std::array<int, 3> normal_components(uint packed) {
           static_cast<std::int8_t>(packed >> 16)};
 }
 
-inline Grid make_grid(Vec3 origin, double cell, uint nx, uint ny, uint nz, std::size_t photons) {
+inline Grid make_grid(Vec3 origin, double cell, uint nx, uint ny, uint nz) {
   if (!std::has_single_bit(nx) || !std::has_single_bit(ny) || !std::has_single_bit(nz))
     throw std::logic_error("a grid has powers of two of buckets along its axes");
-  return {to_float4(origin, 1 / cell), nx, ny, nz, static_cast<uint>(photons)};
+  return {to_float4(origin, 1 / cell), nx, ny, nz, 0};
 }
 inline std::size_t bucket_count(const Grid& grid) { return std::size_t(grid.nx) * grid.ny * grid.nz; }
+
+/// One grid for photons of all kinds.
+inline PhotonGrids one_grid(const Grid& grid, std::size_t photons) {
+  return {{grid, {}}, {1, 0}, 0, static_cast<uint>(photons)};
+}
+
+/// A grid for each kind; the buckets of the second follow those of the first.
+inline PhotonGrids two_grids(const Grid& focused, Grid indirect, std::size_t photons) {
+  indirect.first_bucket = static_cast<uint>(bucket_count(focused));
+  return {{focused, indirect}, {1, 1}, 1, static_cast<uint>(photons)};
+}
 
 struct SortedPhotons {
   cl::Buffer starts, sorted;
@@ -41,9 +52,11 @@ inline std::size_t photon_blocks(std::size_t photons) { return (photons + 7) / 8
 
 /// Runs count, sum, scan and move as the photon map does.
 inline SortedPhotons sort_photons(Device& device, const cl::Program& program,
-                                  const std::vector<Photon>& photons, const Grid& grid) {
+                                  const std::vector<Photon>& photons, const PhotonGrids& grids) {
   constexpr std::size_t segment = 256;  // SCAN_SEGMENT
-  const std::size_t buckets = bucket_count(grid), segments = (buckets + segment - 1) / segment;
+  const std::size_t buckets =
+      bucket_count(grids.grid[FOCUSED_PHOTONS]) + bucket_count(grids.grid[INDIRECT_PHOTONS]);
+  const std::size_t segments = (buckets + segment - 1) / segment;
   auto in = device.upload(photons, "photons");
   auto counts = device.buffer(buckets * sizeof(cl_uint), "counts"),
        ranks = device.buffer(photons.size() * sizeof(cl_uint), "ranks"),
@@ -57,11 +70,11 @@ inline SortedPhotons sort_photons(Device& device, const cl::Program& program,
     set_arguments(kernel, arguments...);
     device.launch(kernel, items);
   };
-  run("count_photons", photons.size(), in, counts, ranks, grid);
+  run("count_photons", photons.size(), in, counts, ranks, grids);
   run("sum_segments", segments, counts, sums, cl_uint(buckets));
   run("scan_sums", 1, sums, cl_uint(segments));
   run("scan_segments", segments, counts, sums, result.starts, cl_uint(buckets));
-  run("move_photons", 8 * photon_blocks(photons.size()), in, ranks, result.starts, result.sorted, grid);
+  run("move_photons", 8 * photon_blocks(photons.size()), in, ranks, result.starts, result.sorted, grids);
   device.queue().finish();
   return result;
 }
@@ -99,7 +112,7 @@ inline std::vector<GatherSums> gather_photons(Device& device, const cl::Program&
                                               const std::vector<GatherPoint>& points,
                                               const std::vector<Photon>& photons, const Grid& grid,
                                               float radius2) {
-  const SortedPhotons map = sort_photons(device, program, photons, grid);
+  const SortedPhotons map = sort_photons(device, program, photons, one_grid(grid, photons.size()));
   const auto in = device.upload(points, "points"),
              out = device.buffer(points.size() * sizeof(GatherSums), "sums");
   cl::Kernel kernel(program, "gather_points");
