@@ -1,6 +1,7 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "error.hpp"
@@ -87,6 +88,11 @@ bool is_lit(const Environment& environment) {
   for (std::size_t i = 0; i < rgba.size(); ++i)
     if (i % 4 != 3 && rgba[i] > 0) return true;
   return false;
+}
+
+double indirect_radius(const RendererSpec& renderer) {
+  return renderer.indirect_radius.value_or(
+      std::clamp(std::pow(static_cast<double>(renderer.photons) / 1e4, 0.25), 1.0, 4.0));
 }
 
 bool has_light(const Scene& scene) {

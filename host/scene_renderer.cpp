@@ -27,8 +27,8 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   renderer.photons = json.integer("photon_sample", renderer.photons, 1, count_limit);
   renderer.passes = static_cast<int>(json.integer("rounds", renderer.passes, 1, count_limit));
   if (const auto radius = json.find("radius")) renderer.radius = radius->number(positive_number);
-  renderer.indirect_radius =
-      json.number("indirect_radius", renderer.indirect_radius, {1, 100, "a number from 1 to 100"});
+  if (const auto wider = json.find("indirect_radius"))
+    renderer.indirect_radius = wider->number({1, 100, "a number from 1 to 100"});
   renderer.alpha = json.number("alpha", renderer.alpha, open_unit_number);
   renderer.radius_decay =
       json.number("radius_decay", renderer.radius_decay, {1e-6, 1, "a number from 1e-6 to 1"});

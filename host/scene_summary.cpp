@@ -137,7 +137,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
       text << *r.radius;
     else
       text << "chosen from the scene";
-    if (r.indirect_radius != 1) text << " (" << r.indirect_radius << " times that for indirect light)";
+    if (indirect_radius(r) != 1) text << " (" << indirect_radius(r) << " times that for indirect light)";
     if (r.schedule == Schedule::geometric)
       text << ", geometric schedule with radius decay " << r.radius_decay;
     else

@@ -37,7 +37,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.alpha = static_cast<float>(spec_.alpha);
-  params_.indirect_radius = static_cast<float>(spec_.indirect_radius);
+  params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
   visible_points_ =
@@ -102,7 +102,7 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
-    photon_map_.sort(radius, radius * spec_.indirect_radius);
+    photon_map_.sort(radius, radius * indirect_radius(spec_));
     set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
                   photon_map_.grids(), params);
     device_.launch_pass(count_around, params.pixel_count);
@@ -140,7 +140,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
   emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
   const double radius = std::sqrt(schedule_radius2_);
-  photon_map_.sort(radius, radius * spec_.indirect_radius);
+  photon_map_.sort(radius, radius * indirect_radius(spec_));
   // Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
   params_.segment =
       static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 4 * radius));

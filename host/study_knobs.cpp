@@ -110,9 +110,9 @@ const std::vector<Knob>& study_knobs() {
       {"indirect_radius", "Radius for indirect light", "times the search radius",
        "Light that surfaces have scattered before is smooth, so that a larger radius takes noise from it and "
        "blurs little.",
-       true, [](Context c) { return short_number(c.scene.renderer.indirect_radius); },
+       true, [](Context c) { return short_number(indirect_radius(c.scene.renderer)); },
        [](Context c) {
-         return overrides("renderer.indirect_radius", short_number(c.scene.renderer.indirect_radius),
+         return overrides("renderer.indirect_radius", short_number(indirect_radius(c.scene.renderer)),
                           {"1", "2", "4"});
        }},
       {"direct_light", "Direct light", "",

@@ -44,11 +44,14 @@ TEST_CASE(
   // The cap of a sphere within distance R of a point of it has area pi R^2 exactly, so that the density
   // estimate has no bias here and a large radius only makes it smoother.
   Scene scene = furnace("shadow_rays");
-  scene.renderer.radius = 1.9;
+  scene.renderer.radius = 0.95;
+  scene.renderer.indirect_radius = 2.0;
   scene.renderer.alpha = 0.95;
   // Only the indirect quarter is estimated, from some millions of photons a pixel.
   CHECK(largest_deviation(render_with(scene, Integrator::sppm, 64).picture) < 1e-3);
   // Photons alone estimate half, of twice as many photons; the emission stays exact.
+  scene.renderer.radius = 1.9;
+  scene.renderer.indirect_radius = 1.0;
   scene.renderer.direct_light = DirectLight::photons;
   CHECK(largest_deviation(render_with(scene, Integrator::sppm, 128).picture) < 1e-3);
 }

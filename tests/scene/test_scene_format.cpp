@@ -49,12 +49,15 @@ TEST_CASE("renderers") {
   CHECK(sppm.visible_points == 1);
   CHECK(sppm.photons == 1000000);
   CHECK(sppm.radius == 0.5);
-  CHECK(sppm.indirect_radius == 3);
+  CHECK(indirect_radius(sppm) == 3);
   CHECK(sppm.alpha == 0.6);
   CHECK(sppm.passes == 9);
   CHECK(sppm.schedule == Schedule::geometric);
   CHECK(sppm.radius_decay == 0.9);
   CHECK(sppm.direct_light == DirectLight::photons);
+  CHECK(indirect_radius(renderer(R"({"photon_sample": 160000})")) == Approx(2));
+  CHECK(indirect_radius(renderer(R"({"photon_sample": 10})")) == 1);
+  CHECK(indirect_radius(renderer(R"({"photon_sample": 1e9})")) == 4);
   CHECK(renderer(R"({"schedule": "global", "direct_light": "shadow_rays"})").schedule == Schedule::global);
   CHECK(renderer(R"({"direct_light": "shadow_rays"})").direct_light == DirectLight::shadow_rays);
 
