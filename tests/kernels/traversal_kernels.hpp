@@ -30,7 +30,7 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
 /// Rays are two float4: origin and t_max, direction. A result is (t, weights, primitive of the scene as
 /// bits).
 constexpr const char* traversal_kernels = R"(
-#include "kdtree.cl"
+#include "kdtree_packet.cl"
 INLINE Ray load_ray(global const float4 *rays, uint i) {
   Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
   return ray;
@@ -54,6 +54,18 @@ kernel void occluded(global const KdNode *nodes, global const TriangleBlock *blo
   if (i >= count) return;
   uint faults = 0;
   result[i] = kdtree_occluded(nodes, blocks, shapes, 0, load_ray(rays, i), rays[2 * i].w, &faults);
+}
+// As "closest", by packets of consecutive rays: every sixteenth item traces one.
+kernel void closest_packets(global const KdNode *nodes, global const TriangleBlock *blocks,
+                            global const Shape *shapes, global const float4 *rays, global float4 *hits, uint count) {
+  uint first = get_global_id(0);
+  if (first % PACKET_RAYS != 0 || first >= count) return;
+  uint size = min(PACKET_RAYS, count - first);
+  RayPacket packet;
+  for (uint i = 0; i < PACKET_RAYS; ++i)
+    packet_set(&packet, i, load_ray(rays, min(first + i, count - 1u)), hit_none(rays[2 * min(first + i, count - 1u)].w));
+  kdtree_closest_packet(nodes, blocks, shapes, 0, &packet, (1u << size) - 1u);
+  for (uint i = 0; i < size; ++i) store_hit(hits, first + i, blocks, packet_hit(&packet, i));
 }
 // Every primitive in turn: `blocks` holds each once, the shapes in blocks of their own.
 kernel void brute_force(global const TriangleBlock *blocks, uint block_count, global const Shape *shapes,

@@ -1,0 +1,139 @@
+// Packets of rays through the tree against single ones: the same hits to the bit, whatever the rays.
+#include <cstring>
+#include <sstream>
+
+#include "kernels/traversal_scene.hpp"
+
+using namespace causticl;
+
+namespace {
+
+Vec3 random_offset(RandomInputs& random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+// Sixteen rays at a time from one of hard_rays(): that ray and others of about its direction, from its origin
+// or from the points of a lens around it, some of them the same. Others are sixteen that have nothing in
+// common.
+std::vector<TestRay> hard_packets(const Traversal& scene, RandomInputs& random, std::size_t packets) {
+  const auto seeds = hard_rays(scene, random, 16 * packets);
+  const double extent = scene.tree.bounds.high[0] - scene.tree.bounds.low[0];
+  std::vector<TestRay> rays;
+  for (std::size_t packet = 0; packet < packets; ++packet) {
+    const double kind = random.uniform();
+    const double spread = std::pow(10, random.uniform(-7, 0));
+    const double lens = random.uniform() < 0.7 ? 0 : extent * std::pow(10, random.uniform(-6, -1));
+    for (std::size_t i = 0; i < 16; ++i) {
+      const TestRay& other = seeds[16 * packet + i];
+      if (kind < 0.15) {
+        rays.push_back(other);
+        continue;
+      }
+      TestRay ray = seeds[16 * packet];
+      if (i > 0 && random.uniform() < 0.9) {
+        ray.direction = ray.direction + random_offset(random, spread);
+        if (length(ray.direction) > 0) ray.direction = normalize(ray.direction);
+        if (lens > 0) ray.origin = ray.origin + random_offset(random, lens);
+        if (random.uniform() < 0.1) ray.t_max = other.t_max;
+      }
+      if (kind > 0.9 && i % 5 == 4) ray = other;
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
+void check_packets(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
+                   std::size_t packets = 6000) {
+  Traversal scene(input, shapes);
+  auto rays = hard_packets(scene, random, packets);
+  rays.resize(rays.size() - 5);  // the last packet is not full
+  const auto buffer = Traversal::upload(rays);
+  const auto single = scene.closest("closest", buffer, rays.size());
+  const auto packet = scene.closest("closest_packets", buffer, rays.size());
+  std::ostringstream examples;
+  examples.precision(9);
+  std::size_t different = 0, hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits += single[i].primitive != BLOCK_EMPTY;
+    if (std::memcmp(&single[i], &packet[i], sizeof(TestHit)) == 0) continue;
+    if (++different > 3) continue;
+    const auto& r = rays[i];
+    examples << "\nray " << i << ": o " << r.origin.x << " " << r.origin.y << " " << r.origin.z << " d "
+             << r.direction.x << " " << r.direction.y << " " << r.direction.z << " single " << single[i].t
+             << " of " << single[i].primitive << " packet " << packet[i].t << " of " << packet[i].primitive;
+  }
+  INFO(different << " of " << rays.size() << " rays, " << hits << " hits" << examples.str());
+  CHECK(different == 0);
+  if (!input.triangles.empty()) CHECK(hits > rays.size() / 100);
+}
+
+void check_mesh_packets(const TriangleMesh& mesh, unsigned seed, std::size_t packets = 6000) {
+  RandomInputs random(seed);
+  check_packets({mesh, {}}, {}, random, packets);
+}
+
+}  // namespace
+
+TEST_CASE("packets find what single rays find: closed meshes") {
+  check_mesh_packets(torus_mesh(48, 24, 1, 0.4), 1);
+  check_mesh_packets(icosphere_mesh(3, 2), 2);
+  check_mesh_packets(torus_knot_mesh(20000), 3);
+}
+
+TEST_CASE("packets find what single rays find: coplanar triangles, duplicates, boxes that share faces") {
+  for (int axis = 0; axis < 3; ++axis)
+    check_mesh_packets(grid_mesh(20, 20, false,
+                                 [axis](double u, double v) {
+                                   Vec3 p;
+                                   p[axis] = 0.25;
+                                   p[(axis + 1) % 3] = u - 0.5;
+                                   p[(axis + 2) % 3] = v - 0.5;
+                                   return p;
+                                 }),
+                       10 + axis);
+  TriangleMesh duplicates;
+  for (int i = 0; i < 300; ++i) {
+    duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
+    duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
+  }
+  check_mesh_packets(duplicates, 20, 1000);
+  TriangleMesh boxes;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 low{0.25 * (i % 3), 0.25 * (i / 3 % 3), 0.25 * (i / 9)};
+    for (const auto& triangle : box_mesh(low, low + Vec3{0.25, 0.25, 0.25})) boxes.push_back(triangle);
+  }
+  check_mesh_packets(boxes, 21);
+}
+
+TEST_CASE("packets find what single rays find: far from the origin, one triangle, none") {
+  auto far = torus_mesh(40, 20, 100, 30);
+  for (auto& t : far)
+    for (auto& vertex : t.position) vertex[0] += 1e6f;
+  check_mesh_packets(far, 30);
+  check_mesh_packets({make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 31, 2000);
+  check_mesh_packets({}, 32, 100);
+}
+
+TEST_CASE("packets find what single rays find: spheres among triangles") {
+  RandomInputs random(40);
+  auto [input, shapes] = random_spheres(random, 300, 0.1);
+  check_packets(input, shapes, random, 2000);
+  for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
+  check_packets(input, shapes, random);
+}
+
+TEST_CASE("a ray that is not finite changes nothing for the others of its packet") {
+  RandomInputs random(50);
+  Traversal scene({torus_knot_mesh(4000), {}}, {});
+  auto rays = hard_packets(scene, random, 500);
+  for (std::size_t i = 0; i < rays.size(); i += 16) {
+    auto& ray = rays[i + static_cast<std::size_t>(random.uniform(0, 16))];
+    const int axis = static_cast<int>(random.uniform(0, 3));
+    (random.uniform() < 0.5 ? ray.origin : ray.direction)[axis] = random.uniform() < 0.5 ? NAN : INFINITY;
+  }
+  const auto buffer = Traversal::upload(rays);
+  const auto single = scene.closest("closest", buffer, rays.size());
+  const auto packet = scene.closest("closest_packets", buffer, rays.size());
+  CHECK(std::memcmp(single.data(), packet.data(), single.size() * sizeof(TestHit)) == 0);
+}
