@@ -7,6 +7,22 @@
 #include "visible_point.cl"
 #include "work_group.cl"
 
+INLINE RandomStream path_stream(const Params *params, uint pixel, uint sample) {
+  RandomStream stream = {params->seed, params->pass, pixel * params->visible_points + sample};
+  return stream;
+}
+
+// The ray with which path `index` of the chunk begins.
+INLINE Ray path_ray(const Params *params, uint index) {
+  uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
+  real4 film = random4(path_stream(params, pixel, sample), DIM_FILM);
+  real2 position = (real2)(pixel % params->width, pixel / params->width) +
+                   camera_stratum(sample, params->visible_points, film.xy);
+  return camera_ray(&params->camera, params->width, params->height, position, film.zw);
+}
+
+#include "first_hits.cl"
+
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
 // (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
@@ -15,12 +31,10 @@
 OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
                          volatile global Counters *counters) {
   uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
-  RandomStream stream = {params->seed, params->pass, pixel * params->visible_points + sample};
-
-  real4 film = random4(stream, DIM_FILM);
-  real2 position = (real2)(pixel % params->width, pixel / params->width) +
-                   camera_stratum(sample, params->visible_points, film.xy);
-  Ray ray = camera_ray(&params->camera, params->width, params->height, position, film.zw);
+  RandomStream stream = path_stream(params, pixel, sample);
+  // Where the visible point will be.
+  global const FirstHit *first = (global const FirstHit *)visible_points + index;
+  Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
   real3 throughput = (real3)(1, 1, 1);
@@ -34,7 +48,8 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
-    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    bool met = FIRST_HITS_FOUND && depth == 0 ? first_hit(first, &hit)
+                                              : geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance, begin, length;
@@ -134,3 +149,15 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   }
   group_add(rays, group_rays, &counters->rays);
 }
+
+#ifdef CAMERA_PACKETS
+// What the paths of trace_camera meet first. Every sixteenth item traces a packet, so that work-groups stay small pieces
+// of the whole.
+kernel void first_hits(SCENE_PARAMETERS, global FirstHit *hits, volatile global Counters *counters, Params params,
+                       uint packets) {
+  uint index = get_global_id(0) / PACKET_RAYS;
+  if (get_global_id(0) % PACKET_RAYS != 0 || index >= packets) return;
+  GEOMETRY_INIT(params.plane_count)
+  first_hits_of(&geometry, &params, params.visible_points, index, hits, counters);
+}
+#endif

@@ -4,9 +4,24 @@
 #include "film.cl"
 #include "work_group.cl"
 
-// Radiance along one camera path. Paths scatter at most params.max_depth times.
-OUTLINE void path_radiance(const Scene *scene, Ray ray, RandomStream stream, uint max_depth, Radiance *result,
-                           uint *rays, volatile global Counters *counters) {
+// The ray with which path `index` of the chunk, and of its pixel, begins. Four consecutive samples stratify a pixel
+// 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts nothing.
+INLINE Ray path_ray(const Params *params, uint index) {
+  uint pixel = params->first_pixel + index;
+  RandomStream stream = {params->seed, params->pass, pixel};
+  real4 numbers = random4(stream, DIM_FILM);
+  uint stratum = (params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u;
+  real2 position =
+      (real2)(pixel % params->width, pixel / params->width) + camera_stratum(stratum, 4u, numbers.xy);
+  return camera_ray(&params->camera, params->width, params->height, position, numbers.zw);
+}
+
+#include "first_hits.cl"
+
+// Radiance along one camera path. Paths scatter at most params.max_depth times. `first` is where its first hit is kept,
+// if it has been found.
+OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *first, RandomStream stream,
+                           uint max_depth, Radiance *result, uint *rays, volatile global Counters *counters) {
   real3 throughput = (real3)(1, 1, 1);
   Radiance radiance = radiance_none();
   uint history = HISTORY_NO_RECEIVER;
@@ -15,7 +30,8 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
   for (uint depth = 0; depth <= max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++*rays;
-    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    bool met = FIRST_HITS_FOUND && depth == 0 ? first_hit(first, &hit)
+                                              : geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance;
@@ -89,29 +105,39 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, RandomStream stream, uin
   *result = radiance;
 }
 
-// Adds sample number params.pass of a pixel to the film; *rays is the number of rays traced. Four consecutive samples
-// stratify a pixel 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts
-// nothing.
-INLINE void sample_pixel(const Scene *scene, const Params *params, uint pixel, global FilmPixel *film, uint *rays,
-                         volatile global Counters *counters) {
+// Adds sample number params.pass of a pixel, which is path `index` of the chunk, to the film; *rays is the number of rays
+// traced.
+INLINE void sample_pixel(const Scene *scene, const Params *params, uint index, global FilmPixel *film,
+                         global const FirstHit *first_hits, uint *rays, volatile global Counters *counters) {
+  uint pixel = params->first_pixel + index;
   RandomStream stream = {params->seed, params->pass, pixel};
-  real4 numbers = random4(stream, DIM_FILM);
-  uint stratum = (params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u;
-  real2 position =
-      (real2)(pixel % params->width, pixel / params->width) + camera_stratum(stratum, 4u, numbers.xy);
-  Ray ray = camera_ray(&params->camera, params->width, params->height, position, numbers.zw);
+  global const FirstHit *first = first_hits + index;
+  Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
   Radiance radiance;
-  path_radiance(scene, ray, stream, params->max_depth, &radiance, rays, counters);
+  path_radiance(scene, ray, first, stream, params->max_depth, &radiance, rays, counters);
   film_add_radiance(film, pixel, params->width * params->height, &radiance, 0, params->pass, counters);
 }
 
-// One sample of each pixel of the chunk.
-kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params) {
+// One sample of each pixel of the chunk. `first_hits` holds what its paths meet first where the program is built for
+// that.
+kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile global Counters *counters, Params params,
+                        global const FirstHit *first_hits) {
   local uint group_rays[LARGEST_WORK_GROUP];
   uint i = get_global_id(0), rays = 0;
   if (i < params.pixel_count) {
     SCENE_INIT(params);
-    sample_pixel(&scene, &params, params.first_pixel + i, film, &rays, counters);
+    sample_pixel(&scene, &params, i, film, first_hits, &rays, counters);
   }
   group_add(rays, group_rays, &counters->rays);
 }
+
+#ifdef CAMERA_PACKETS
+// What the paths of trace_paths meet first: see pass_camera.cl.
+kernel void first_hits(SCENE_PARAMETERS, global FirstHit *hits, volatile global Counters *counters, Params params,
+                       uint packets) {
+  uint index = get_global_id(0) / PACKET_RAYS;
+  if (get_global_id(0) % PACKET_RAYS != 0 || index >= packets) return;
+  GEOMETRY_INIT(params.plane_count)
+  first_hits_of(&geometry, &params, 1u, index, hits, counters);
+}
+#endif

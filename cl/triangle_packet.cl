@@ -65,7 +65,8 @@ INLINE void packet_sheared(global const TriangleBlock *block, size_t row, float 
 
 // The lanes of a block with a triangle that some ray may meet, as bits. fma() rounds monotonically: between the least
 // and the greatest shear lie the coordinates that packet_intersect() computes for every ray. Where they are all on one
-// side of 0, no ray passes between the corners, and the edge functions, whose signs are exact, say so too.
+// side of 0, no ray passes between the corners, and the edge functions, whose signs are exact, say so too; but not where
+// products underflow, so that a corner may be nearly 0 on the wrong side.
 INLINE uint packet_candidates(global const TriangleBlock *block, const PacketTriangleRays *p) {
   int8 kept = as_int8(*(global const uint8 *)block->primitive) >= 0;
   if (p->one_origin) {
@@ -74,7 +75,7 @@ INLINE uint packet_candidates(global const TriangleBlock *block, const PacketTri
     float8 low_x, high_x, low_y, high_y;
     packet_sheared(block, p->x, p->first_x, p->low_x, p->high_x, az, bz, cz, &low_x, &high_x);
     packet_sheared(block, p->y, p->first_y, p->low_y, p->high_y, az, bz, cz, &low_y, &high_y);
-    kept &= (max(low_x, low_y) <= 0) & (min(high_x, high_y) >= 0);
+    kept &= (max(low_x, low_y) <= 1e-18f) & (min(high_x, high_y) >= -1e-18f);
   }
   return lane_bits(kept);
 }

@@ -289,6 +289,16 @@ typedef struct {
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;
 
+// The ray with which a camera path begins, and what it meets first, as Hit of ray.cl has it. Of float alone. In SPPM it
+// lies where the path will put its visible point.
+typedef struct {
+  float origin[3];
+  float direction[3];
+  float t, u, v;
+  uint primitive;
+} FirstHit;
+CHECK_SIZE(FirstHit, 40);
+
 // What of VisiblePoint.radiance belongs to each layer. With OUTPUT_LAYERS those of all points of a launch follow the
 // points in their buffer.
 typedef struct {

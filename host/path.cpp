@@ -14,11 +14,16 @@ PathTracer::PathTracer(const Scene& scene, DeviceScene& device_scene, Device& de
       motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       trace_paths_(programs.kernel("path", "trace_paths")),
-      counters_(device.buffer(sizeof(Counters), "counters")) {
+      counters_(device.buffer(sizeof(Counters), "counters")),
+      chunk_(std::min(launch_chunk(device), film.pixels())),
+      first_hit_bytes_(programs.options().camera_packets ? chunk_ * sizeof(FirstHit) : 0),
+      first_hit_buffer_(device.buffer(first_hit_bytes_, "first hits")),
+      first_hits_(programs, "path", device_scene, first_hit_buffer_, counters_) {
   device_.clear(counters_, sizeof(Counters));
   first_argument_ = set_scene_arguments(trace_paths_, device_scene);
   trace_paths_.setArg(first_argument_, film_.buffer());
   trace_paths_.setArg(first_argument_ + 1, counters_);
+  trace_paths_.setArg(first_argument_ + 3, first_hit_buffer_);
 }
 
 void PathTracer::enqueue_pass(std::uint32_t pass) {
@@ -27,13 +32,18 @@ void PathTracer::enqueue_pass(std::uint32_t pass) {
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
   set_scene_arguments(trace_paths_, device_scene_);
-  const std::size_t end = share_.end_of(film_.pixels()), chunk = launch_chunk(device_);
-  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk) {
+  const std::size_t end = share_.end_of(film_.pixels());
+  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_) {
     params_.first_pixel = static_cast<uint>(first);
-    params_.pixel_count = static_cast<uint>(std::min(chunk, end - first));
+    params_.pixel_count = static_cast<uint>(std::min(chunk_, end - first));
+    first_hits_.launch(device_, device_scene_, params_, 1);
     trace_paths_.setArg(first_argument_ + 2, params_);
     device_.launch_pass(trace_paths_, params_.pixel_count);
   }
+}
+
+double PathTracer::bytes_per_pixel() const {
+  return static_cast<double>(first_hit_bytes_) / static_cast<double>(film_.pixels());
 }
 
 PassIntegrator::Totals PathTracer::finish() {

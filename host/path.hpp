@@ -2,6 +2,7 @@
 #pragma once
 
 #include "film.hpp"
+#include "first_hits.hpp"
 #include "integrator.hpp"
 #include "motion.hpp"
 #include "programs.hpp"
@@ -16,7 +17,7 @@ class PathTracer : public PassIntegrator {
 
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
-  double bytes_per_pixel() const override { return 0; }
+  double bytes_per_pixel() const override;
 
  private:
   Device& device_;
@@ -27,6 +28,10 @@ class PathTracer : public PassIntegrator {
   cl::Kernel trace_paths_;
   cl_uint first_argument_;
   cl::Buffer counters_;
+  std::size_t chunk_;
+  std::size_t first_hit_bytes_;
+  cl::Buffer first_hit_buffer_;
+  FirstHits first_hits_;
   CounterTotals totals_;
 };
 

@@ -127,6 +127,8 @@ std::string names_of(const std::vector<Device*>& devices) {
 void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& parts, Statistics& statistics) {
   for (const auto& part : parts) {
     statistics.device_bytes += part->device.allocated_bytes();
+    statistics.camera_rays +=
+        (statistics.camera_rays.empty() ? "" : " + ") + camera_rays_text(part->programs.options());
     statistics.kept_programs += part->device.kept_programs() - part->kept_before;
     for (const auto& [name, time] : part->kernel_times()) {
       statistics.kernels[name].milliseconds += time.milliseconds;
@@ -172,8 +174,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   }
   std::vector<std::unique_ptr<RenderDevice>> parts;
   for (Device* device : devices)
-    parts.push_back(
-        std::make_unique<RenderDevice>(*device, scene, kernels, passes_to_run(plan), options.threads));
+    parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels, options.camera_rays,
+                                                   passes_to_run(plan), options.threads));
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
   std::optional<double> first_radius = scene.renderer.radius;
   for (const auto& part : parts)

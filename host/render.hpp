@@ -11,6 +11,7 @@
 #include "device.hpp"
 #include "error_estimate.hpp"
 #include "faults.hpp"
+#include "first_hits.hpp"
 #include "image.hpp"
 #include "kernels.hpp"
 #include "scene.hpp"
@@ -35,6 +36,7 @@ struct RenderOptions {
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
+  CameraRays camera_rays = CameraRays::automatic;
   unsigned threads = 0;          // for the tree; 0: all of the machine
   std::string effects = "auto";  // --effects, as chosen_effects takes it
   std::string kernel_dir;        // --kernel-dir: read cl/ live; empty: the embedded sources
@@ -81,6 +83,7 @@ struct Statistics {
   double pass_seconds = 0;   // of the passes alone, without start-up, writing and snapshots
   double error_seconds = 0;  // looking at the error of the picture, while passes go on
   double tree_build_seconds = 0;
+  std::string camera_rays;  // how they find what they meet first, on each device
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;           // estimated; none after a single pass and of a black picture
   std::optional<double> passes_to_half_error;  // further ones, estimated; none while the trend is not known

@@ -103,6 +103,7 @@ std::string statistics_table(const Statistics& s) {
   append(text, "  %-28s %.3f s\n", "  building the tree", s.tree_build_seconds);
   append(text, "  %-28s %llu triangles, %llu other shapes, %llu emitters\n", "scene", Number(s.triangles),
          Number(s.shapes), Number(s.emitters));
+  append(text, "  %-28s %s\n", "camera rays", s.camera_rays.c_str());
   append(text, "  %-28s %llu (%s/s)\n", "rays", Number(s.rays), si_number(s.rays_per_second).c_str());
   if (s.photons) {
     append(text, "  %-28s %llu (%s/s)\n", "photons", Number(s.photons),
@@ -153,6 +154,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"pass_seconds", s.pass_seconds},
                                    {"error_seconds", s.error_seconds},
                                    {"tree_build_seconds", s.tree_build_seconds},
+                                   {"camera_rays", s.camera_rays},
                                    {"passes", s.passes},
                                    {"photons", s.photons},
                                    {"photons_per_second", s.photons_per_second},

@@ -17,14 +17,19 @@ void for_each(const std::vector<RenderDevice*>& devices, const std::function<voi
   for (auto& one : running) one.get();
 }
 
+KernelOptions with_camera_rays(KernelOptions kernels, CameraRays wanted, const Device& device) {
+  kernels.camera_packets = packets_chosen(wanted, device, kernels);
+  return kernels;
+}
+
 }  // namespace
 
 RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels,
-                           const std::vector<std::string>& passes, unsigned threads)
+                           CameraRays camera_rays, const std::vector<std::string>& passes, unsigned threads)
     : device(on),
       times_before(on.kernel_times()),
       kept_before(on.kept_programs()),
-      programs(on, kernels, passes),
+      programs(on, with_camera_rays(kernels, camera_rays, on), passes),
       scene(upload_scene(what, on, threads, kernels.triangle_test)),
       film(on, programs, what.width, what.height) {}
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "film.hpp"
+#include "first_hits.hpp"
 #include "integrator.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
@@ -14,7 +15,7 @@ namespace causticl {
 /// All that a render keeps on one device.
 struct RenderDevice {
   /// Begins to build the programs of `passes` and uploads the scene; `threads` build its tree (0: all cores).
-  RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels,
+  RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, CameraRays camera_rays,
                const std::vector<std::string>& passes, unsigned threads);
 
   Device& device;

@@ -132,28 +132,32 @@ class HardRays {
 };
 
 /// The same test of the same triangle gives the same bits, so distances must be equal; at equal distances
-/// either triangle will do. Any hit must be found for shadow rays as well.
+/// either triangle will do. Any hit must be found for shadow rays as well, and packets must find the same
+/// triangle.
 template <std::vector<TriangleMesh> (*meshes_of)()>
 CheckResult equals_brute_force(CheckContext& context) {
   struct Answers {
-    MeshHit tree, brute_force;
+    MeshHit tree, packet, brute_force;
     std::uint32_t occluded;
   };
   MeshSet meshes(context, meshes_of());
   return run_random_check(
       context, 0, "", HardRays(meshes),
       [&](const auto& rays) {
-        const auto tree = meshes.closest(rays), brute_force = meshes.brute_force(rays);
+        const auto tree = meshes.closest(rays), packet = meshes.closest_in_packets(rays);
+        const auto brute_force = meshes.brute_force(rays);
         const auto occluded = meshes.occluded(rays);
         std::vector<Answers> answers(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) answers[i] = {tree[i], brute_force[i], occluded[i]};
+        for (std::size_t i = 0; i < rays.size(); ++i)
+          answers[i] = {tree[i], packet[i], brute_force[i], occluded[i]};
         return answers;
       },
       [](const MeshRay&, const Answers& found) {
         const std::uint32_t met = found.brute_force.triangle != BLOCK_EMPTY;
         const bool nearest =
             found.tree.t == found.brute_force.t && (found.tree.triangle != BLOCK_EMPTY) == (met != 0);
-        return nearest && found.occluded == met ? 0.0 : 1.0;
+        const bool same = found.packet.t == found.tree.t && found.packet.triangle == found.tree.triangle;
+        return nearest && same && found.occluded == met ? 0.0 : 1.0;
       });
 }
 

@@ -53,6 +53,26 @@ kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint 
   uint i = get_global_id(0);
   if (i < count) hits[i] = tree_closest(rays + i, ranges, nodes, blocks, list);
 }
+#ifndef TRIANGLES_PRECOMPUTED
+#include "kdtree_packet.cl"
+// As one of sixteen rays from the same point: the others go to all sides of it, some of them far.
+OUTLINE MeshHit closest_in_packet(global const MeshRay *in, uint own, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  RayPacket packet;
+  for (uint i = 0; i < PACKET_RAYS; ++i) {
+    Ray ray = mesh_ray(in);
+    real3 aside = (real3)(i & 1u ? -1 : 1, i & 2u ? -1 : 1, i & 4u ? -1 : 1);
+    if (i != own) ray.direction += (i & 8u ? (real)0.1f : (real)0.001f) * aside;
+    packet_set(&packet, i, ray, hit_none(in->t_max));
+  }
+  kdtree_closest_packet(nodes + range.first_node, blocks + range.first_block, 0, 0, &packet, (1u << PACKET_RAYS) - 1u);
+  return mesh_hit(blocks + range.first_block, packet_hit(&packet, own));
+}
+kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
+  uint i = get_global_id(0);
+  if (i < count) hits[i] = closest_in_packet(rays + i, i % PACKET_RAYS, ranges, nodes, blocks, list);
+}
+#endif
 OUTLINE uint tree_occluded(global const MeshRay *in, MESHES) {
   MeshRange range = ranges[in->mesh];
   uint faults = 0;
@@ -132,6 +152,7 @@ MeshSet::MeshSet(CheckContext& context, std::vector<TriangleMesh> meshes, Triang
       closest_(context, program_, "mesh_closest"),
       occluded_(context, program_, "mesh_occluded"),
       brute_force_(context, program_, "mesh_brute_force") {
+  if (triangle_test == TriangleTest::watertight) packets_.emplace(context, program_, "mesh_packets");
   std::vector<MeshRange> ranges;
   std::vector<KdNode> nodes;
   std::vector<TriangleBlock> blocks, list;
@@ -152,6 +173,10 @@ MeshSet::MeshSet(CheckContext& context, std::vector<TriangleMesh> meshes, Triang
 
 std::vector<MeshHit> MeshSet::closest(const std::vector<MeshRay>& rays) {
   return closest_.with(ranges_, nodes_, blocks_, list_).run<MeshHit>(rays);
+}
+
+std::vector<MeshHit> MeshSet::closest_in_packets(const std::vector<MeshRay>& rays) {
+  return packets_.value().with(ranges_, nodes_, blocks_, list_).run<MeshHit>(rays);
 }
 
 std::vector<std::uint32_t> MeshSet::occluded(const std::vector<MeshRay>& rays) {

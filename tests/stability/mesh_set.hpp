@@ -1,6 +1,8 @@
 // Meshes on the device, each with a tree of its own, and rays through them.
 #pragma once
 
+#include <optional>
+
 #include "meshes.hpp"
 #include "random_check.hpp"
 #include "triangle_transforms.hpp"
@@ -31,6 +33,8 @@ class MeshSet {
   std::size_t size() const { return meshes_.size(); }
 
   std::vector<MeshHit> closest(const std::vector<MeshRay>& rays);
+  /// As closest(), each ray in a packet with others that go about its way. By the watertight test alone.
+  std::vector<MeshHit> closest_in_packets(const std::vector<MeshRay>& rays);
   /// 1 for each ray that meets something before t_max, 2 where the walk was cut short.
   std::vector<std::uint32_t> occluded(const std::vector<MeshRay>& rays);
   /// As closest(), by trying every triangle.
@@ -42,6 +46,7 @@ class MeshSet {
   cl::Program program_;
   cl::Buffer ranges_, nodes_, blocks_, list_;
   CheckKernel closest_, occluded_, brute_force_;
+  std::optional<CheckKernel> packets_;  // of the watertight test
 };
 
 /// A vertex of the triangle.
