@@ -16,9 +16,15 @@ INLINE void sum_add(float *hi, float *lo, float x) {
 
 INLINE float luminance(float red, float green, float blue) { return 0.2126f * red + 0.7152f * green + 0.0722f * blue; }
 
+// The sign of the luminance of a pixel's estimate number `index` in FilmPixel.alternating, by Thue and Morse: of two
+// estimates that follow each other one has either sign, and what drifts, or comes again every two or four passes (as the
+// strata of a pixel in path tracing), cancels over eight.
+INLINE float sign_of_estimate(uint index) { return popcount(index) & 1u ? -1.0f : 1.0f; }
+
 // Adds the radiance estimate of pass `pass` to a pixel. One that is not finite, or with which the sum would not be, is
 // left out of the mean, and counted. `blur` is what the estimate's luminance owes to the size of its kernel, as far as
-// gather() can tell: see pass_film.cl for what becomes of it and of the spread, which grows as Welford (1962) has it.
+// gather() can tell: see pass_film.cl for what becomes of it, of the spread, which grows as Welford (1962) has it, and of
+// the sum under changing signs.
 INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
                      volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
@@ -41,12 +47,14 @@ INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
     pixel->sum[c] = hi[c];
     pixel->low[c] = lo[c];
   }
-  float estimates = (float)(pass - pixel->left_out);
+  uint index = pass - pixel->left_out;
+  float estimates = (float)index, added = luminance(value[0], value[1], value[2]);
   if (estimates > 0) {
-    float mean = luminance(before[0], before[1], before[2]) / estimates;
-    float deviation = luminance(value[0], value[1], value[2]) - mean;
+    float deviation = added - luminance(before[0], before[1], before[2]) / estimates;
     pixel->spread = fmin(pixel->spread + deviation * deviation * (estimates / (estimates + 1)), FLT_MAX);
   }
+  float alternating = pixel->alternating + sign_of_estimate(index) * added;
+  pixel->alternating = clamp(alternating, -FLT_MAX, FLT_MAX);
   if (isfinite(blur)) pixel->blur[pass & 1u] += (float)blur;
   return true;
 }

@@ -2,8 +2,11 @@
 #include "film.cl"
 
 // Pixels to each side over which variance and blur are pooled.
-#define VARIANCE_REACH 1
-#define BLUR_REACH 2
+#define REACH 1
+
+// Squares of the blur that are less than this many times what noise makes of them are none: with 1, a third of the pixels
+// without any blur would pass for blurred, and their error with them.
+#define NOISE_OF_BLUR 2.0f
 
 // What of a pixel's variance, in the picture's error, is that of its neighbours. Rare bright paths have not been seen in
 // most pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
@@ -29,38 +32,63 @@ INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes) {
   return pixel->spread / (fmax(estimates, 1.0f) * fmax(estimates - 1, 1.0f));
 }
 
+// The blur of the window around (x, y), as far as it lies within the picture: of even and odd passes the mean, and half
+// of what the even ones have more; none where all lies outside.
+typedef struct {
+  float mean, half_difference;
+  uint pixels;
+} Blur;
+INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, int x, int y, uint passes) {
+  float even = 0, odd = 0;
+  Blur blur = {0, 0, 0};
+  for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
+    for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++blur.pixels) {
+      even += film[j * width + i].blur[0];
+      odd += film[j * width + i].blur[1];
+    }
+  if (blur.pixels == 0) return blur;
+  even /= (float)blur.pixels * ((passes + 1) / 2);
+  odd /= (float)blur.pixels * max(passes / 2, 1u);
+  blur.mean = (even + odd) / 2;
+  blur.half_difference = (even - odd) / 2;
+  return blur;
+}
+
 // Error of `pixel` after `passes` passes, in luminance.
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
 //          schedule their radii follow. What the pixel's own passes say of it is right on average, but in few passes it is
 //          itself noisy; pooled_noise takes the mean of variances around, which is smooth, but too large for most pixels
 //          beside edges and glints.
-//   bias:  its absolute value. The blur of the even passes and that of the odd ones have noises of their own, so that
-//          the expectation of their product is the square of the blur, and noise does not pass for bias. Each is a mean
-//          over the window, in which noise cancels.
+//   bias:  its absolute value, from the blur around the pixel, once of the even passes and once of the odd ones. Both have
+//          noises of their own, so that half their difference is as noisy as their mean: the square of the first, over the
+//          pixel's window and the eight beside it, is what the square of the second owes to noise.
+//   drawn: half of the difference between the means of one half of the passes and of the other. It is made of the same
+//          estimates as the error of their mean, but for signs, and has its variance and kurtosis.
 INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes) {
   uint x = pixel % width, y = pixel / width, left, top;
-  uint right = window_of(x, width, VARIANCE_REACH, &left), bottom = window_of(y, height, VARIANCE_REACH, &top);
-  float pooled = 0, even = 0, odd = 0;
+  uint right = window_of(x, width, REACH, &left), bottom = window_of(y, height, REACH, &top);
+  float pooled = 0;
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) pooled += variance_of_mean(film + j * width + i, passes);
   pooled /= (right - left) * (bottom - top);
-  right = window_of(x, width, BLUR_REACH, &left);
-  bottom = window_of(y, height, BLUR_REACH, &top);
-  for (uint j = top; j < bottom; ++j)
-    for (uint i = left; i < right; ++i) {
-      even += film[j * width + i].blur[0];
-      odd += film[j * width + i].blur[1];
+  Blur own = blur_around(film, width, height, (int)x, (int)y, passes);
+  float noise = 0, windows = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      Blur beside = blur_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), passes);
+      noise += beside.half_difference * beside.half_difference;
+      windows += beside.pixels > 0 ? 1.0f : 0.0f;
     }
-  float count = (right - left) * (bottom - top);
-  even /= count * ((passes + 1) / 2);
-  odd /= count * max(passes / 2, 1u);
 
   global const FilmPixel *p = film + pixel;
   PixelError error;
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
   error.noise = sqrt((1 - NEIGHBOURS_SHARE) * variance_of_mean(p, passes) + NEIGHBOURS_SHARE * pooled);
   error.pooled_noise = sqrt(pooled);
-  error.bias = BIAS_OF_BLUR * sqrt(fmax(even * odd, 0.0f));
+  error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f));
+  uint estimates = passes - p->left_out;
+  float unpaired = estimates & 1u ? sign_of_estimate(estimates - 1) * error.luminance : 0.0f;
+  error.drawn = (p->alternating - unpaired) / fmax((float)estimates, 1.0f);
   return error;
 }
 

@@ -241,8 +241,9 @@ typedef struct {
   uint left_out;  // estimates that were not finite: the mean is over the others
   float spread;   // sum of the squared deviations of the estimates' luminance from their mean
   float blur[2];  // what luminance owes to the photons' kernel, summed over passes of even and of odd number
+  float alternating;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
 } FilmPixel;
-CHECK_SIZE(FilmPixel, 40);
+CHECK_SIZE(FilmPixel, 44);
 
 // The layers of a picture, see layers.cl.
 #define LAYER_DIRECT 0u
@@ -264,8 +265,9 @@ typedef struct {
   float noise;         // standard deviation of that, such that over a picture its distribution is right
   float pooled_noise;  // the same, such that it is right of this pixel: see pixel_error of pass_film.cl
   float bias;          // absolute
+  float drawn;         // an error as noise makes it: half by how much one half of the passes is brighter than the other
 } PixelError;
-CHECK_SIZE(PixelError, 16);
+CHECK_SIZE(PixelError, 20);
 
 // The mark of visible points and photons that lie in the medium: a photon's `normal` holds a direction then
 // (direction_pack).

@@ -12,7 +12,7 @@ namespace {
 constexpr double dark = 0.1;  // pixels below this share of the mean luminance are judged against it
 
 struct RelativeError {
-  double noise, bias;
+  double drawn, noise, bias;
 };
 
 /// Of every `stride`-th pixel.
@@ -25,28 +25,35 @@ std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels
   errors.reserve(pixels.size() / stride + 1);
   for (std::size_t i = 0; i < pixels.size(); i += stride) {
     const double scale = std::max<double>(pixels[i].luminance, dark * mean);
-    errors.push_back({pixels[i].noise / scale, pixels[i].bias / scale});
+    errors.push_back({pixels[i].drawn / scale, pixels[i].noise / scale, pixels[i].bias / scale});
   }
   return errors;
+}
+
+/// What a share of the pixels is off by at most, where the noise that was drawn, times `noise`, adds to their
+/// bias, times `bias`. Which of the two has which sign is not known: both cases count.
+double drawn_bound(const std::vector<RelativeError>& errors, double share, double noise, double bias) {
+  std::vector<double> sizes;
+  sizes.reserve(2 * errors.size());
+  for (const auto& error : errors)
+    for (const double sign : {-1, 1})
+      sizes.push_back(std::fabs(noise * error.drawn + sign * bias * error.bias));
+  const auto rank =
+      std::min(static_cast<std::size_t>(share * static_cast<double>(sizes.size())), sizes.size() - 1);
+  const auto bound = sizes.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(sizes.begin(), bound, sizes.end());
+  return *bound;
 }
 
 /// The probability that a number, normally distributed, is x standard deviations above its mean or more. In
 /// single precision, which is a third of the time: shares are asked for to a thousandth.
 double above(double x) { return 0.5 * std::erfc(static_cast<float>(x / std::numbers::sqrt2)); }
 
-/// The probability of being off by less than `bound`.
-double probability_below(const RelativeError& error, double bound) {
-  const auto [noise, bias] = error;
+/// The probability that a normally distributed number is off by less than `bound` from what is off by `bias`.
+double probability_below(double noise, double bias, double bound) {
   if (!(noise > 0)) return bias <= bound ? 1 : 0;
   if (bias == 0) return 1 - 2 * above(bound / noise);
   return 1 - above((bound - bias) / noise) - above((bound + bias) / noise);
-}
-
-/// The expected share of pixels that are off by less than `bound`.
-double share_below(const std::vector<RelativeError>& errors, double bound) {
-  double share = 0;
-  for (const auto& error : errors) share += probability_below(error, bound);
-  return share / static_cast<double>(errors.size());
 }
 
 /// Where a function that grows from 0 to 1 reaches `wanted`, to 0.5%; 0 where it starts above.
@@ -65,8 +72,14 @@ double inverse(const Function& function, double wanted) {
   return high;
 }
 
-double bound_of(const std::vector<RelativeError>& errors, double confidence) {
-  return inverse([&](double bound) { return share_below(errors, bound); }, confidence);
+/// As drawn_bound() of noise alone, were it normally distributed: less exact, but smoother from look to look.
+double normal_bound(const std::vector<RelativeError>& errors, double share) {
+  const auto share_below = [&](double bound) {
+    double sum = 0;
+    for (const auto& error : errors) sum += probability_below(error.noise, 0, bound);
+    return sum / static_cast<double>(errors.size());
+  };
+  return inverse(share_below, share);
 }
 
 }  // namespace
@@ -74,35 +87,32 @@ double bound_of(const std::vector<RelativeError>& errors, double confidence) {
 double error_bound(const PixelError& pixel, double confidence) {
   const double size = std::max<double>(pixel.pooled_noise, pixel.bias);
   if (!(size > 0)) return 0;
-  const RelativeError error{pixel.pooled_noise / size, pixel.bias / size};
-  return size * inverse([&](double bound) { return probability_below(error, bound); }, confidence);
+  const double noise = pixel.pooled_noise / size, bias = pixel.bias / size;
+  return size * inverse([&](double bound) { return probability_below(noise, bias, bound); }, confidence);
 }
 
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence) {
   const auto errors = relative_errors(pixels);
   if (errors.empty()) return {};
-  auto noises = errors, biases = errors;
-  for (auto& error : noises) error.bias = 0;
-  for (auto& error : biases) error.noise = 0;
-  return PictureError{bound_of(errors, confidence), bound_of(noises, confidence),
-                      bound_of(biases, confidence)};
+  return PictureError{drawn_bound(errors, confidence, 1, 1), drawn_bound(errors, confidence, 1, 0),
+                      drawn_bound(errors, confidence, 0, 1)};
 }
 
 void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels) {
   pixels_ = pixels;
   last_ = picture_error(pixels, confidence_);
   if (last_)
-    looks_.push_back({std::log(static_cast<double>(passes)), std::log(last_->error), std::log(last_->noise),
-                      std::log(last_->bias)});
+    looks_.push_back({std::log(static_cast<double>(passes)),
+                      std::log(normal_bound(relative_errors(pixels), confidence_)), std::log(last_->bias)});
   passes_ = passes;
 }
 
-/// `weight`: of the expected rate, beside that of one look an octave before the last.
-double ErrorTrend::rate_of(double Look::*part, double expected, double weight) const {
+double ErrorTrend::rate_of(double Look::*part, double expected) const {
   if (looks_.empty() || !std::isfinite(looks_.back().*part)) return expected;
-  // A line through the latest look, by least squares.
+  // A line through the latest look, by least squares. The expected rate weighs half of what one look an
+  // octave before the last does.
   const Look& now = looks_.back();
-  constexpr double octave = std::numbers::ln2;
+  constexpr double octave = std::numbers::ln2, weight = 0.5;
   double sum = weight * octave * octave, weighted = sum * expected;
   for (const Look& then : looks_) {
     const double distance = now.passes - then.passes;
@@ -114,24 +124,18 @@ double ErrorTrend::rate_of(double Look::*part, double expected, double weight) c
 }
 
 ErrorRates ErrorTrend::rates() const {
-  return {std::max(rate_of(&Look::noise, expected_.noise, 0.5), 0.0),
-          std::max(rate_of(&Look::bias, expected_.bias, 2), expected_.bias / 2)};
+  return {std::max(rate_of(&Look::noise, expected_.noise), 0.0),
+          std::max(rate_of(&Look::bias, expected_.bias), expected_.bias)};
 }
 
 double ErrorTrend::passes_until(double wanted) const {
   if (last_->error <= wanted) return static_cast<double>(passes_);
-  // What becomes of the error is asked for at every look, and a guess: half the pixels will do.
-  const auto errors = relative_errors(pixels_, 2);
-  const double error = bound_of(errors, confidence_);
-  wanted *= error / last_->error;
+  const auto errors = relative_errors(pixels_);
   const ErrorRates now = rates();
-  const auto after = [&](double times) {
-    const double noise = std::pow(times, -now.noise), bias = std::pow(times, -now.bias);
-    auto then = errors;
-    for (auto& pixel : then) pixel = {pixel.noise * noise, pixel.bias * bias};
-    return then;
+  const auto reached = [&](double times) {
+    return drawn_bound(errors, confidence_, std::pow(times, -now.noise), std::pow(times, -now.bias)) <=
+           wanted;
   };
-  const auto reached = [&](double times) { return share_below(after(times), wanted) >= confidence_; };
   double low = 1, high = 1;
   for (; !reached(high); low = high, high *= 8)
     if (high > 1e12) return std::numeric_limits<double>::infinity();
@@ -139,12 +143,7 @@ double ErrorTrend::passes_until(double wanted) const {
     const double middle = std::sqrt(low * high);
     (reached(middle) ? high : low) = middle;
   }
-  constexpr double octaves = 4;
-  const double expected = std::log2(error / bound_of(after(std::exp2(octaves)), confidence_)) / octaves;
-  const double rate = rate_of(&Look::error, expected, 0.5);
-  constexpr double slowest = 0.05;  // half the error would take a million times as long
-  if (rate < slowest) return std::numeric_limits<double>::infinity();
-  return std::sqrt(high * std::pow(error / wanted, 1 / rate)) * static_cast<double>(passes_);
+  return high * static_cast<double>(passes_);
 }
 
 }  // namespace causticl

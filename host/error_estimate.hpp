@@ -26,14 +26,17 @@ struct PixelErrorKind {
 };
 constexpr PixelErrorKind pixel_error_kinds[] = {{"error.noise", &PixelError::noise},
                                                 {"error.pooled_noise", &PixelError::pooled_noise},
-                                                {"error.bias", &PixelError::bias}};
+                                                {"error.bias", &PixelError::bias},
+                                                {"error.drawn", &PixelError::drawn}};
 
 /// What a pixel's error is below with probability `confidence`, in luminance, if its pooled noise is
 /// distributed normally about its bias.
 double error_bound(const PixelError& pixel, double confidence);
 
 /// The error of the picture from those of its pixels, or of a sample of them: each is off by its bias and by
-/// normally distributed noise. None for a black picture.
+/// noise. Of the noise each has drawn one sample (PixelError::drawn), and over many pixels these are spread
+/// as the errors are: with all their tails, for which a normal distribution of each pixel's deviation has too
+/// many errors of moderate size. None for a black picture.
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence);
 
 /// How a part of the error goes down: it ~ passes^-rate.
@@ -60,20 +63,19 @@ class ErrorTrend {
   const std::optional<PictureError>& last() const { return last_; }
 
   /// The rates of the noise and of the bias as measured over the last two octaves of passes, from the fourth
-  /// pass on: of fewer the spread tells too little. The expected ones count as well, that of the bias for
-  /// more, since noise is part of what is measured; and it is half the expected one at least.
+  /// pass on: of fewer the spread tells too little. The expected ones count as well. Bias goes down as
+  /// expected at least: what is slower is noise that passes for it.
   ErrorRates rates() const;
 
-  /// Passes after which the error will be `wanted`, counted from the first. What noise is left in the bias
-  /// makes that last too long where every pixel's noise and bias go on at their rates; where the error goes
-  /// on as it went, it ends too soon, since bias goes down more slowly and remains. The answer is the
-  /// geometric mean of the two. Infinite where there is no end in sight. Needs last().
+  /// Passes after which the error will be `wanted`, counted from the first, if every pixel's noise and bias
+  /// go on at their rates: noise falls away, and bias is left. Infinite where there is no end in sight. Needs
+  /// last().
   double passes_until(double wanted) const;
 
  private:
-  /// The logarithms of passes, of the error and of its parts, at a look.
+  /// The logarithms of passes and of the error's parts at a look.
   struct Look {
-    double passes, error, noise, bias;
+    double passes, noise, bias;
   };
 
   ErrorRates expected_;
@@ -83,7 +85,7 @@ class ErrorTrend {
   std::vector<PixelError> pixels_;  // the last ones
   std::vector<Look> looks_;
 
-  double rate_of(double Look::*part, double expected, double weight) const;
+  double rate_of(double Look::*part, double expected) const;
 };
 
 }  // namespace causticl

@@ -37,8 +37,8 @@ TEST_CASE("several outputs hold one picture") {
   CHECK(names_in(folder.path("")) == Words{"a.png", "b.exr", "c.pfm"});
   const Picture exr = read_picture(folder.path("b.exr")), pfm = read_picture(folder.path("c.pfm"));
   CHECK(exr.rgb == pfm.rgb);
-  for (const std::string name :
-       {"error.noise", "error.pooled_noise", "error.bias", "sppm.radius", "sppm.photons", "sppm.N"})
+  for (const std::string name : {"error.noise", "error.pooled_noise", "error.bias", "error.drawn",
+                                 "sppm.radius", "sppm.photons", "sppm.N"})
     CHECK_THAT(bytes_of(folder.path("b.exr")), Contains(name));
   CHECK(*std::max_element(pfm.rgb.begin(), pfm.rgb.end()) > 0);
 }

@@ -1,3 +1,4 @@
+#include <bit>
 #include <cstring>
 #include <limits>
 
@@ -132,7 +133,7 @@ TEST_CASE("samples that are not finite change counters and no pixel's sum") {
   CHECK(left_out == bad);
 }
 
-TEST_CASE("the film's spread and blur equal two-pass sums of its finite estimates") {
+TEST_CASE("the film's spread, blur and alternating sum equal two-pass sums of its finite estimates") {
   RandomInputs random(53);
   constexpr uint pixels = 256, count = 300;
   std::vector<float4> samples(pixels * count);
@@ -145,18 +146,21 @@ TEST_CASE("the film's spread and blur equal two-pass sums of its finite estimate
   Counters counters{};
   const auto film = add_samples(samples, pixels, counters);
   for (uint i = 0; i < pixels; ++i) {
-    double sum = 0, spread = 0, blur[2] = {};
+    double sum = 0, spread = 0, alternating = 0, blur[2] = {};
     std::vector<double> finite;
     for (uint n = 0; n < count; ++n) {
       const float4& s = samples[i * count + n];
       if (std::isnan(s.y)) continue;
+      const bool minus = std::popcount(finite.size()) % 2;  // those that are left out take no sign
       finite.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
+      alternating += minus ? -finite.back() : finite.back();
       sum += finite.back();
       blur[n % 2] += s.w;
     }
     const double mean = sum / static_cast<double>(finite.size());
     for (const double value : finite) spread += (value - mean) * (value - mean);
     CHECK(film[i].spread == Approx(spread).epsilon(1e-5));
+    CHECK(film[i].alternating == Approx(alternating).epsilon(1e-5).margin(1e-3));
     for (int parity = 0; parity < 2; ++parity)
       CHECK(film[i].blur[parity] == Approx(blur[parity]).margin(1e-4));
   }
