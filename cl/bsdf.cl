@@ -20,7 +20,8 @@ typedef struct {
 
 INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
                     real2 uv) {
-  Bsdf bsdf = {material->kind, convert_real3(material->color.xyz), material->color.w, 0,
+  global const float *color = (global const float *)&material->color;
+  Bsdf bsdf = {material->kind, (real3)(color[0], color[1], color[2]), color[3], 0,
                (real3)(0, 0, 0), (real3)(0, 0, 0), 0, false};
   if (HAS(EFFECT_ROUGH)) bsdf.alpha = lobe_alpha(material->alpha, bsdf.kind == MATERIAL_GLASS ? bsdf.ior : 0);
   if (HAS(EFFECT_CONDUCTOR)) {
@@ -39,10 +40,9 @@ INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textu
 // The shading normal on the side of the surface that `direction` arrives at. Where interpolation tilted it
 // away from the ray altogether, the geometric normal takes its place.
 INLINE real3 facing_normal(const Surface *surface, real3 direction) {
-  bool front = dot(surface->geometric_normal, direction) < 0;
-  real3 n = front ? surface->shading_normal : -surface->shading_normal;
-  if (dot(n, direction) < 0) return n;
-  return front ? surface->geometric_normal : -surface->geometric_normal;
+  real side = dot3(surface->geometric_normal, direction) < 0 ? 1 : -1;
+  bool tilted = !(side * dot3(surface->shading_normal, direction) < 0);
+  return scaled3(side, choose3(tilted, surface->geometric_normal, surface->shading_normal));
 }
 
 typedef struct {
@@ -54,11 +54,11 @@ typedef struct {
 // Lambert: density cos / pi about the facing normal n.
 INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real4 random) {
   BsdfSample sample;
-  sample.direction = hemisphere_cosine(random.xy, n);
-  sample.pdf = max(dot(sample.direction, n), (real)0) * INV_PI;
+  sample.direction = hemisphere_cosine_by(random.x, random.y, n);
+  sample.pdf = max(dot3(sample.direction, n), (real)0) * INV_PI;
   // A direction under the true surface, which only a shading normal can give, carries nothing.
-  bool same_side = dot(sample.direction, surface->geometric_normal) * dot(arriving, surface->geometric_normal) < 0;
-  sample.weight = same_side ? bsdf->color : (real3)(0, 0, 0);
+  bool same_side = dot3(sample.direction, surface->geometric_normal) * dot3(arriving, surface->geometric_normal) < 0;
+  sample.weight = choose3(same_side, bsdf->color, (real3)(0, 0, 0));
   if (HAS(EFFECT_PLASTIC) && bsdf->coated)
     sample.weight *= fresnel_transmittance(dot(sample.direction, n), bsdf->ior);
   return sample;
@@ -69,12 +69,15 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
 
 // A mirror image of d about n, and about the geometric normal where that one would end under the surface.
 INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {
-  real3 reflected = d - 2 * dot(d, n) * n;
+  real3 reflected = difference3(d, scaled3(2 * dot3(d, n), n));
   real3 g = surface->geometric_normal;
-  real side = dot(d, g) < 0 ? 1 : -1;
-  if (!(side * dot(reflected, g) >= GRAZING_COSINE))
-    reflected = d + side * 2 * fmax(fabs(dot(d, g)), GRAZING_COSINE) * g;
-  return normalize(reflected);
+  real cosine = dot3(d, g), side = cosine < 0 ? 1 : -1;
+  real x = reflected.x, y = reflected.y, z = reflected.z;
+  if (!(side * dot3(reflected, g) >= GRAZING_COSINE)) {
+    real3 lifted = sum3(d, scaled3(side * 2 * fmax(fabs(cosine), GRAZING_COSINE), g));
+    x = lifted.x, y = lifted.y, z = lifted.z;
+  }
+  return unit3((real3)(x, y, z));
 }
 
 // Reflects or refracts with the Fresnel probability; `radiance` says what the path carries: refraction
@@ -82,28 +85,31 @@ INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {
 INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d, real3 n, real4 random,
                                bool radiance) {
   real3 g = surface->geometric_normal;
-  bool entering = dot(g, d) < 0;
+  bool entering = dot3(g, d) < 0;
   real eta = entering ? bsdf->ior : 1 / bsdf->ior;
-  real cosine = fmin(-dot(d, n), (real)1), cosine_t;
-  real reflectance = fresnel_dielectric(cosine, eta, &cosine_t);
-  BsdfSample sample = {d, bsdf->color, 0};
-  if (random.z >= reflectance) {
-    real3 refracted = d / eta + (cosine / eta - cosine_t) * n;
-    // A refracted ray that a shading normal bends back over the surface is bent by the geometric one.
-    real3 facing = entering ? g : -g;
-    if (!(dot(refracted, facing) <= -GRAZING_COSINE)) {
-      cosine = fmin(-dot(d, facing), (real)1);
-      if (fresnel_dielectric(cosine, eta, &cosine_t) >= 1) {
-        sample.direction = mirror_direction(surface, d, facing);
-        return sample;
-      }
-      refracted = d / eta + (cosine / eta - fmax(cosine_t, GRAZING_COSINE)) * facing;
-    }
-    sample.direction = normalize(refracted);
-    if (radiance) sample.weight = sample.weight / (eta * eta);
-    return sample;
+  real cosine = fmin(-dot3(d, n), (real)1), cosine_t;
+  bool refracts = random.z >= fresnel_dielectric(cosine, eta, &cosine_t);
+  real3 slowed = quotient3(d, eta), refracted = sum3(slowed, scaled3(cosine / eta - cosine_t, n));
+  // A refracted ray that a shading normal bends back over the surface is bent by the geometric one.
+  real3 facing = scaled3(entering ? 1 : -1, g);
+  real x = refracted.x, y = refracted.y, z = refracted.z;
+  bool bent_back = refracts && !(dot3(refracted, facing) <= -GRAZING_COSINE);
+  if (bent_back) {
+    cosine = fmin(-dot3(d, facing), (real)1);
+    refracts = fresnel_dielectric(cosine, eta, &cosine_t) < 1;
+    real3 again = sum3(slowed, scaled3(cosine / eta - fmax(cosine_t, GRAZING_COSINE), facing));
+    x = again.x, y = again.y, z = again.z;
   }
-  sample.direction = mirror_direction(surface, d, n);
+  real3 leaving;
+  if (refracts) {
+    leaving = unit3((real3)(x, y, z));
+    x = leaving.x, y = leaving.y, z = leaving.z;
+  } else {
+    leaving = mirror_direction(surface, d, choose3(bent_back, facing, n));
+    x = leaving.x, y = leaving.y, z = leaving.z;
+  }
+  BsdfSample sample = {(real3)(x, y, z), bsdf->color, 0};
+  if (radiance) sample.weight = quotient3(sample.weight, refracts ? eta * eta : 1);
   return sample;
 }
 
@@ -218,6 +224,30 @@ INLINE void plastic_choose(Bsdf *bsdf, real3 arriving, real3 n, real random) {
   }
 }
 
+// What bsdf_sample() draws where every material is diffuse, a mirror or smooth glass. What the branches hand on are
+// scalars: see vector.cl.
+INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, real3 direction, real3 n, real4 random,
+                                     bool radiance) {
+  BsdfSample sample = {direction, bsdf->color, 0};
+  bool diffuse = bsdf->kind == MATERIAL_DIFFUSE;
+  BsdfSample lambert = diffuse_sample(bsdf, surface, direction, n, random);
+  real x = lambert.direction.x, y = lambert.direction.y, z = lambert.direction.z;
+  if (HAS(EFFECT_MIRROR | EFFECT_GLASS) && !diffuse) {
+    real3 leaving = mirror_direction(surface, direction, n);
+    x = leaving.x, y = leaving.y, z = leaving.z;
+  }
+  if (HAS(EFFECT_GLASS)) {
+    bool glass = bsdf->kind == MATERIAL_GLASS;
+    BsdfSample through = glass_sample(bsdf, surface, direction, n, random, radiance);
+    x = glass ? through.direction.x : x, y = glass ? through.direction.y : y, z = glass ? through.direction.z : z;
+    sample.weight = choose3(glass, through.weight, sample.weight);
+  }
+  sample.direction = (real3)(x, y, z);
+  sample.weight = choose3(diffuse, lambert.weight, sample.weight);
+  sample.pdf = diffuse ? lambert.pdf : 0;
+  return sample;
+}
+
 // Draws where a path that arrives along `direction` goes on. `radiance` is true on camera paths.
 INLINE BsdfSample bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random,
                               bool radiance) {
@@ -255,15 +285,15 @@ INLINE bool path_survives(real3 *throughput, uint depth, real random) {
 // the ratio has no bound at grazing incidence.
 // Light from below the horizon of the shading normal is none, as for shadow rays.
 INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
-  real geometric = -dot(direction, surface->geometric_normal);
-  real shading = -dot(direction, surface->shading_normal) * (geometric < 0 ? -1 : 1);
+  real geometric = -dot3(direction, surface->geometric_normal);
+  real shading = -dot3(direction, surface->shading_normal) * (geometric < 0 ? -1 : 1);
   return clamp(shading / fmax(fabs(geometric), (real)1e-6f), (real)0, (real)4);
 }
 
 // The same for departure of a photon in `direction` from a Lambert or rough surface that was sampled about n.
 INLINE real shading_normal_departure(const Surface *surface, real3 direction, real3 n) {
-  real geometric = fabs(dot(direction, surface->geometric_normal));
-  real shading = fabs(dot(direction, n));
+  real geometric = fabs(dot3(direction, surface->geometric_normal));
+  real shading = fabs(dot3(direction, n));
   return fmin(geometric / fmax(shading, (real)1e-6f), (real)4);
 }
 

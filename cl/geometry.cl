@@ -45,3 +45,18 @@ INLINE void geometry_surface(const Geometry *g, Ray ray, Hit hit, Surface *surfa
   else
     shape_surface(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, surface);
 }
+
+// The same for loops over paths that are to be vectorised: what the branches hand on are scalars.
+INLINE void geometry_surface_parts(const Geometry *g, Ray ray, Hit hit, Surface *surface) {
+  SurfaceParts parts;
+  if (HAS(EFFECT_TRIANGLES) && !(hit.primitive & HIT_SHAPE)) {
+    Surface triangle;
+    triangle_surface(g->blocks, g->attributes, hit, &triangle);
+    surface_take_apart(&triangle, &parts);
+  } else {
+    Surface shape;
+    shape_surface(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, &shape);
+    surface_take_apart(&shape, &parts);
+  }
+  surface_put_together(&parts, surface);
+}

@@ -27,8 +27,8 @@ INLINE uint photon_bucket(PhotonGrids grids, real3 p, uint normal) {
 // A unit normal in 24 bits, eight a component. Coarse, and enough to tell the sides of a surface and the
 // walls of a corner apart, which is all that it is compared for.
 INLINE uint normal_pack(real3 n) {
-  int3 q = convert_int3_rte(convert_float3(n) * 127.0f);
-  return ((uint)q.x & 0xffu) | ((uint)q.y & 0xffu) << 8 | ((uint)q.z & 0xffu) << 16;
+  int x = (int)rint((float)n.x * 127.0f), y = (int)rint((float)n.y * 127.0f), z = (int)rint((float)n.z * 127.0f);
+  return ((uint)x & 0xffu) | ((uint)y & 0xffu) << 8 | ((uint)z & 0xffu) << 16;
 }
 INLINE float3 normal_unpack(uint packed) {
   int3 q = (int3)((int)(packed << 24) >> 24, (int)(packed << 16) >> 24, (int)(packed << 8) >> 24);

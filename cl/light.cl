@@ -60,33 +60,37 @@ INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) 
 }
 
 // A point on an emitter with its outward unit normal, *error as in Surface and *pdf per area given the emitter.
-INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, real2 u, real3 *normal, real *error,
-                           real *pdf) {
-  real3 a = convert_real3(emitter->a.xyz), b = convert_real3(emitter->b.xyz), c = convert_real3(emitter->c.xyz);
-  real3 point;
-  *pdf = 1 / (real)emitter->radiance.w;
-  if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
-    *normal = sphere_uniform(u);
-    point = a + emitter->a.w * *normal;
-  } else if (HAS(EFFECT_BEZIER) && emitter->type == EMITTER_BEZIER) {
+INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, real u, real v, real3 *normal,
+                           real *error, real *pdf) {
+  global const float *row = (global const float *)emitter;
+  real3 a = (real3)(row[0], row[1], row[2]), b = (real3)(row[4], row[5], row[6]), c = (real3)(row[8], row[9], row[10]);
+  uint type = emitter->type;
+  // Scaled first: the product of long or short edges leaves the range of a float.
+  real3 across = cross3(quotient3(b, max_component(abs3(b))), quotient3(c, max_component(abs3(c))));
+  across = unit3(quotient3(across, max_component(abs3(across))));
+  real2 d = triangle_uniform((real2)(u, v));
+  real dx = d.x, dy = d.y, x = across.x, y = across.y, z = across.z;
+  if (type == EMITTER_DISK) {
+    d = disc_uniform((real2)(u, v));
+    dx = d.x, dy = d.y;
+  }
+  bool sphere = HAS(EFFECT_SPHERES) && type == EMITTER_SPHERE;
+  if (sphere) {
+    real3 outward = sphere_uniform((real2)(u, v));
+    x = outward.x, y = outward.y, z = outward.z;
+  }
+  *normal = (real3)(x, y, z);
+  real3 point = choose3(sphere, sum3(a, scaled3(row[3], *normal)), sum3(sum3(a, scaled3(dx, b)), scaled3(dy, c)));
+  *pdf = 1 / (real)row[15];
+  if (HAS(EFFECT_BEZIER) && type == EMITTER_BEZIER) {
     global const Shape *shape = scene->geometry.shapes + emitter->shape;
     real density, area;
-    real t = bezier_parameter(scene->geometry.curves + emitter->first_area, EMITTER_AREA_STEPS, u.x, &density);
-    bezier_point(shape, scene->geometry.curves, u.y, t, &point, normal, &area);
+    real t = bezier_parameter(scene->geometry.curves + emitter->first_area, EMITTER_AREA_STEPS, u, &density);
+    bezier_point(shape, scene->geometry.curves, v, t, &point, normal, &area);
     *pdf = area > 0 ? density / area : 0;
-  } else {
-    if (emitter->type == EMITTER_DISK) {
-      real2 d = disc_uniform(u);
-      point = a + d.x * b + d.y * c;
-    } else {
-      real2 d = triangle_uniform(u);
-      point = a + d.x * b + d.y * c;
-    }
-    // Scaled first: the product of long or short edges leaves the range of a float.
-    *normal = normalize(cross(b / max_component(fabs(b)), c / max_component(fabs(c))));
   }
-  real3 size = fabs(a) + fabs(b) + fabs(c) + fabs(point);
-  *error = STORED_GAMMA(8) * (max_component(size) + emitter->a.w);
+  real3 size = sum3(sum3(sum3(abs3(a), abs3(b)), abs3(c)), abs3(point));
+  *error = STORED_GAMMA(8) * (max_component(size) + row[3]);
   return point;
 }
 
@@ -146,7 +150,7 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
   }
   real3 normal;
   real error, area_pdf;
-  real3 point = emitter_point(scene, emitter, random.yz, &normal, &error, &area_pdf);
+  real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
   real3 to_light = point - position;
   real distance2 = dot(to_light, to_light);
   if (!(distance2 > 0) || !(area_pdf > 0)) return sample;
@@ -209,13 +213,20 @@ INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, r
   return ray;
 }
 
-// Starts a photon: emitter by power, point by area, direction by cosine. Returns its ray; *flux is relative to
+// The emitter of a photon, chosen by power.
+INLINE uint photon_emitter(const Scene *scene, RandomStream stream) {
+  real4 choice = random4(stream, DIM_EMITTER);
+  return emitter_choose(scene, choice.x, choice.w);
+}
+
+// Starts a photon of an emitter: point by area, direction by cosine. Returns its ray; *flux is relative to
 // Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point and directional lights;
 // about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
-static Ray photon_emit(const Scene *scene, RandomStream stream, real3 *flux) {
+INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream, real3 *flux) {
   real4 choice = random4(stream, DIM_EMITTER), direction = random4(stream, DIM_EMISSION);
-  global const Emitter *emitter = scene->emitters + emitter_choose(scene, choice.x, choice.w);
-  real3 normal, radiance = convert_real3(emitter->radiance.xyz);
+  global const Emitter *emitter = scene->emitters + chosen;
+  global const float *power = (global const float *)&emitter->radiance;
+  real3 normal, radiance = (real3)(power[0], power[1], power[2]);
   if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
     return environment_emit(scene, emitter, choice, direction.xy, flux);
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
@@ -225,11 +236,12 @@ static Ray photon_emit(const Scene *scene, RandomStream stream, real3 *flux) {
     return leaving;
   }
   real error, area_pdf;
-  real3 point = emitter_point(scene, emitter, choice.yz, &normal, &error, &area_pdf);
-  if (emitter->two_sided && choice.w < (real)0.5f) normal = -normal;
+  real3 point = emitter_point(scene, emitter, choice.y, choice.z, &normal, &error, &area_pdf);
+  normal = scaled3(emitter->two_sided != 0 && choice.w < (real)0.5f ? -1 : 1, normal);
   Ray ray;
-  ray.direction = hemisphere_cosine(direction.xy, normal);
+  ray.direction = hemisphere_cosine_by(direction.x, direction.y, normal);
   ray.origin = offset_origin(point, error, normal, ray.direction);
-  *flux = area_pdf > 0 ? radiance / (max_component(radiance) * area_pdf * emitter->radiance.w) : (real3)(0, 0, 0);
+  real share = area_pdf > 0 ? 1 : 0, whole = max_component(radiance) * area_pdf * power[3];
+  *flux = quotient3(scaled3(share, radiance), area_pdf > 0 ? whole : 1);
   return ray;
 }

@@ -2,7 +2,7 @@
 // medium scatters them.
 #include "direct.cl"
 #include "grid.cl"
-#include "layers.cl"
+#include "wave.cl"
 #include "work_group.cl"
 
 // Sets the random numbers of photons apart from those of camera paths.
@@ -15,152 +15,229 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   return (uint)clamp(units, (real)0, (real)65535);
 }
 
-// Photons that a work-group keeps until it asks for room for all of them at once: four of each of its usual 64 items.
-// What finds no place here goes to the buffer by itself.
-#define STAGED_PHOTONS (LARGEST_WORK_GROUP)
-
-// Where one work-item leaves its photons.
-typedef struct {
-  local Photon *staged;   // of this item alone
-  uint room;              // in `staged`
-  uint count;             // how many are there
-  uint indirect;          // how many were stored that are marked INDIRECT_PHOTON, there or not
-  global Photon *photons; // the buffer of the pass, and what it holds
-  uint capacity;
-  volatile global Counters *counters;
-} PhotonStore;
-
-// Adds a photon, whose `flux` is relative to Params.photon_flux; where the buffer is full it is only counted.
-INLINE void photon_store(PhotonStore *store, real3 position, uint normal, real3 flux, uint history, real4 dither) {
+// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits.
+INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history, real4 dither, Photon *record) {
   bool saturated = false;
   uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
        b = flux_quantise(flux.z, dither.z, &saturated);
-  if (saturated) atomic_inc(&store->counters->saturated);
-  if (!isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z)) {
-    atomic_inc(&store->counters->non_finite);
-    return;
-  }
-  Photon photon;
-  vstore3(position, 0, photon.position);
-  photon.normal = normal;
-  photon.flux_rg = r | g << 16;
-  photon.flux_b = b;
-  if (HAS(OUTPUT_LAYERS)) photon.flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
-  if (!(normal & IN_MEDIUM) && (normal & INDIRECT_PHOTON)) ++store->indirect;
-  if (store->count < store->room) {
-    store->staged[store->count++] = photon;
-    return;
-  }
-  uint slot = list_reserve(1, &store->counters->photons);
-  if (slot < store->capacity) store->photons[slot] = photon;
+  bool finite = isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z);
+  record->position[0] = position.x, record->position[1] = position.y, record->position[2] = position.z;
+  record->normal = normal;
+  record->flux_rg = r | g << 16;
+  record->flux_b = b;
+  if (HAS(OUTPUT_LAYERS)) record->flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
+  return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u);
 }
 
-// Traces photon number `index` of the pass. Returns the number of rays traced.
-OUTLINE uint photon_path(const Scene *scene, const Params *params, uint index, PhotonStore *store) {
-  RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, index};
+// Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
+INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+                             bool shadow_rays, PhotonState *photon, Photon *record, uint *events) {
+  if (!medium_along(scene, photon->ray, hit, hit.primitive != HIT_NONE, photon->interior)) return false;
+  real before = max_component(photon->flux), distance;
+  if (!medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &photon->flux, &distance))
+    return false;
+  photon->flux *= scene->medium.scattering;
+  photon->ray.origin += distance * photon->ray.direction;
+  *events = 0;
+  if (!(shadow_rays && depth == 0))
+    *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->history,
+                            random_at(stream, depth, DIM_QUANTISE), record);
+  real4 random = random_at(stream, depth, DIM_BSDF);
+  real survival = fmin(max_component(photon->flux) / before, (real)1);
+  if (depth + 1 == params->max_depth || random.w >= survival) return true;
+  photon->flux /= survival;
+  photon->ray.direction = phase_sample(scene->medium.g, photon->ray.direction, random.xy);
+  photon->history = history_after(photon->history, false);
+  photon->mark = INDIRECT_PHOTON;
+  if (max_component(photon->flux) > 0) *events |= EVENT_ALIVE;
+  return true;
+}
 
-  real3 flux;
-  Ray ray = photon_emit(scene, stream, &flux);
+// Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
+// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
+INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+                         PhotonState *photon, Photon *record) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
-  uint rays = 0, history = HISTORY_STRAIGHT, mark = 0;
-  Interior interior = interior_none();
-  for (uint depth = 0; depth < params->max_depth; ++depth) {
+  uint events = 0;
+  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
+    return events;
+  if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
+  real3 direction = photon->ray.direction;
+  Surface surface;
+  geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
+  global const Material *material = scene->materials + surface.material;
+  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+  if (HAS(EFFECT_TEXTURES) && !isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z)) {
+    events |= EVENT_NON_FINITE;
+    bsdf.color = (real3)(0, 0, 0);
+  }
+  if (HAS(EFFECT_DISPERSION))
+    disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &photon->flux);
+  real3 flux = photon->flux, n = facing_normal(&surface, direction);
+  real4 random = random_at(stream, depth, DIM_BSDF);
+  real before = max_component(flux);
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+    photon->interior = interior_before(photon->interior, material, &surface, direction);
+    flux *= interior_transmittance(photon->interior, hit.t);
+  }
+
+  // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more. Only where
+  // all is black, as on most lamps, are they of no use.
+  bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
+  bool black = material->color_texture == 0 && !(max_component(bsdf.color) > 0);
+  real arrival = shading_normal_arrival(&surface, direction);
+  real3 arrived = scaled3(arrival, flux);
+  // With shadow rays the light that arrives straight from an emitter is counted there.
+  if ((diffuse || plastic) && !black && !(shadow_rays && depth == 0)) {
+    real3 landed = arrived;
+    if (plastic) landed *= fresnel_transmittance(-dot(direction, n), bsdf.ior);
+    real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
+    events |= photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
+                            photon->history, random_at(stream, depth, DIM_QUANTISE), record);
+  }
+  bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
+  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+
+  if (plastic) plastic_choose(&bsdf, direction, n, random.z);
+  photon->history = history_after(photon->history, bsdf_is_specular(&bsdf));
+  photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
+  BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
+                               : bsdf_sample(&bsdf, &surface, direction, random, false);
+  bool spread = bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf);
+  real departure = shading_normal_departure(&surface, next.direction, n);
+  flux = product3(choose3(spread, arrived, flux), scaled3(spread ? departure : 1, next.weight));
+  // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
+  real survival = fmin(max_component(flux) / before, (real)1);
+  flux = quotient3(flux, survival);
+  alive = alive && random.w < survival && max_component(flux) > 0;
+  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
+    photon->interior = interior_after(photon->interior, material, &surface, next.direction);
+  photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+  photon->ray.direction = next.direction;
+  photon->flux = flux;
+  return events | (alive ? EVENT_ALIVE : 0u);
+}
+
+// Starts `count` photons of the pass, from number `first` on.
+OUTLINE void wave_emit(const Scene *from, const Params *settings, uint first, uint count, Wave *wave) {
+  const Scene scene = *from;
+  const Params params = *settings;
+  for (uint i = 0; i < count; ++i) {
+    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, first + i};
+    wave->primitive[i] = photon_emitter(&scene, stream);
+  }
+#if VECTORISED(LOOPED_EMISSION)
+#pragma clang loop vectorize(assume_safety)
+#endif
+  for (uint i = 0; i < count; ++i) {
+    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, first + i};
+    real3 flux;
+    Ray ray = photon_emit_from(&scene, wave->primitive[i], stream, &flux);
+    PhotonState photon = {ray, flux, HISTORY_STRAIGHT, 0, interior_none()};
+    wave->index[i] = first + i;
+    wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
+    wave_put(wave, i, &photon);
+  }
+}
+
+// Finds where each photon's ray ends.
+OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
+  for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
-    if (!(max_component(flux) > 0)) break;
-    ++rays;
-    bool met = geometry_closest(&scene->geometry, ray, &hit);
-    count_faults(hit.faults, store->counters);
-    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
-      real before = max_component(flux), distance;
-      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &flux, &distance)) {
-        flux *= scene->medium.scattering;
-        real3 position = ray.origin + distance * ray.direction;
-        if (!(shadow_rays && depth == 0))
-          photon_store(store, position, direction_pack(ray.direction), flux, history,
-                       random_at(stream, depth, DIM_QUANTISE));
-        if (depth + 1 == params->max_depth) break;
-        real4 random = random_at(stream, depth, DIM_BSDF);
-        real survival = fmin(max_component(flux) / before, (real)1);
-        if (random.w >= survival) break;
-        flux /= survival;
-        ray.origin = position;
-        ray.direction = phase_sample(scene->medium.g, ray.direction, random.xy);
-        history = history_after(history, false);
-        mark = INDIRECT_PHOTON;
-        continue;
-      }
-    }
-    if (!met) break;
-    Surface surface;
-    geometry_surface(&scene->geometry, ray, hit, &surface);
-    global const Material *material = scene->materials + surface.material;
-    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, store->counters);
-    if (HAS(EFFECT_DISPERSION))
-      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &flux);
-    real3 n = facing_normal(&surface, ray.direction);
-    real4 random = random_at(stream, depth, DIM_BSDF);
+    geometry_closest(&scene->geometry, wave_ray(wave, i), &hit);
+    count_faults(hit.faults, counters);
+    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+  }
+}
 
-    real before = max_component(flux);
-    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-      interior = interior_before(interior, material, &surface, ray.direction);
-      flux *= interior_transmittance(interior, hit.t);
+// Takes each photon past its hit.
+OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth, uint count, Wave *wave) {
+  const Scene scene = *from;
+  const Params params = *settings;
+#if VECTORISED(LOOPED_EVENTS)
+#pragma clang loop vectorize(assume_safety)
+#endif
+  for (uint i = 0; i < count; ++i) {
+    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, wave->index[i]};
+    Hit hit = {wave->t[i], wave->primitive[i], wave->u[i], wave->v[i], 0};
+    uint events = 0;
+    if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
+      PhotonState photon = wave_get(wave, i);
+      Photon record = {{0, 0, 0}, 0, 0, 0};
+      events = photon_event(&scene, &params, stream, depth, hit, &photon, &record);
+      wave_put(wave, i, &photon);
+      wave_put_record(wave, i, &record);
     }
+    wave->events[i] = events;
+  }
+}
 
-    bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC;
-    if (bsdf.kind == MATERIAL_DIFFUSE || plastic) {
-      // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more.
-      // Only where all is black, as on most lamps, are they of no use.
-      bool black = material->color_texture == 0 && !(max_component(bsdf.color) > 0);
-      if (black && !plastic) break;
-      // With shadow rays the light that arrives straight from an emitter is counted there.
-      if (!(shadow_rays && depth == 0) && !black) {
-        real3 landed = flux * shading_normal_arrival(&surface, ray.direction);
-        if (plastic) landed *= fresnel_transmittance(-dot(ray.direction, n), bsdf.ior);
-        bool front = dot(surface.geometric_normal, ray.direction) < 0;
-        photon_store(store, surface.position,
-                     normal_pack(front ? surface.geometric_normal : -surface.geometric_normal) | mark, landed,
-                     history, random_at(stream, depth, DIM_QUANTISE));
-      }
+// Stores the records of the last event and counts what went wrong there.
+OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, uint capacity,
+                        volatile global Counters *counters) {
+  uint stored = 0, indirect = 0, saturated = 0, non_finite = 0;
+  for (uint i = 0; i < count; ++i) {
+    uint events = wave->events[i];
+    stored += (events & EVENT_STORED) ? 1u : 0u;
+    indirect += (events & EVENT_STORED) && (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON ? 1u : 0u;
+    saturated += (events & EVENT_SATURATED) ? 1u : 0u;
+    non_finite += (events & EVENT_NON_FINITE) ? 1u : 0u;
+  }
+  if (saturated > 0) atomic_add(&counters->saturated, saturated);
+  if (non_finite > 0) atomic_add(&counters->non_finite, non_finite);
+  if (stored == 0) return;
+  if (indirect > 0) atomic_add(&counters->indirect, indirect);
+  uint slot = list_reserve(stored, &counters->photons);
+  for (uint i = 0; i < count; ++i) {
+    if (!(wave->events[i] & EVENT_STORED)) continue;
+    if (slot < capacity) {
+      Photon photon;
+      for (uint k = 0; k < 3; ++k) photon.position[k] = wave->position[k][i];
+      photon.normal = wave->normal[i], photon.flux_rg = wave->flux_rg[i], photon.flux_b = wave->flux_b[i];
+      photons[slot] = photon;
     }
-    if (depth + 1 == params->max_depth) break;
+    ++slot;
+  }
+}
 
-    if (plastic) plastic_choose(&bsdf, ray.direction, n, random.z);
-    history = history_after(history, bsdf_is_specular(&bsdf));
-    if (bsdf.kind == MATERIAL_DIFFUSE) mark = INDIRECT_PHOTON;
-    BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, false);
-    if (bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf)) {
-      flux *= shading_normal_arrival(&surface, ray.direction);
-      next.weight *= shading_normal_departure(&surface, next.direction, n);
-    }
-    // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
-    flux *= next.weight;
-    real survival = fmin(max_component(flux) / before, (real)1);
-    if (random.w >= survival) break;
-    flux /= survival;
-    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
-    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
-    ray.direction = next.direction;
+// Moves the photons that go on to the front. Returns how many they are.
+OUTLINE uint wave_compact(uint count, Wave *wave) {
+  uint alive = 0;
+  for (uint i = 0; i < count; ++i) {
+    wave_move(wave, i, alive);
+    alive += wave->events[i] & EVENT_ALIVE;
+  }
+  return alive;
+}
+
+// Traces photons [first, first + count) of the pass, all of them one event at a time. Returns the number of rays.
+OUTLINE uint wave_paths(const Scene *scene, const Params *params, uint first, uint count, global Photon *photons,
+                        volatile global Counters *counters) {
+  Wave wave;
+  uint rays = 0;
+  wave_emit(scene, params, first, wave_padded(count), &wave);
+  uint alive = wave_compact(count, &wave);
+  for (uint depth = 0; depth < params->max_depth && alive > 0; ++depth) {
+    rays += alive;
+    wave_trace(scene, alive, &wave, counters);
+    uint padded = wave_padded(alive);
+    for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
+    wave_scatter(scene, params, depth, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
+    wave_store(alive, &wave, photons, params->photon_capacity, counters);
+    alive = wave_compact(alive, &wave);
   }
   return rays;
 }
 
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
-// the host can enlarge it and trace the pass again.
+// the host can enlarge it and trace the pass again. One item of a work-group traces the photons of all.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params) {
-  local Photon staged[STAGED_PHOTONS];
-  local uint group_numbers[LARGEST_WORK_GROUP], places[LARGEST_WORK_GROUP + 1];
-  uint index = get_global_id(0), room = STAGED_PHOTONS / get_local_size(0), rays = 0;
-  PhotonStore store = {staged + get_local_id(0) * room, room, 0, 0, photons, params.photon_capacity, counters};
-  if (index < params.photon_count) {
-    SCENE_INIT(params);
-    rays = photon_path(&scene, &params, params.first_photon + index, &store);
-  }
-  uint first = group_reserve(store.count, places, &counters->photons);
-  for (uint i = 0; i < store.count; ++i)
-    if (first + i < params.photon_capacity) photons[first + i] = store.staged[i];
-  group_add(rays, group_numbers, &counters->rays);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  group_add(store.indirect, group_numbers, &counters->indirect);
+  uint first = get_global_id(0), count = WAVE_CAPACITY == 1u ? 1u : (uint)get_local_size(0);
+  if (first >= params.photon_count || (WAVE_CAPACITY > 1u && get_local_id(0) != 0)) return;
+  SCENE_INIT(params);
+  count = min(count, params.photon_count - first);
+  uint rays = wave_paths(&scene, &params, params.first_photon + first, count, photons, counters);
+  atomic_add(&counters->rays, rays);
 }

@@ -1,6 +1,7 @@
 // Rays, hits and the surface found at a hit.
 #include "faults.cl"
 #include "prelude.cl"
+#include "vector.cl"
 
 // The ray origin + t direction for 0 < t < t_max; direction is of unit length.
 typedef struct {
@@ -37,16 +38,37 @@ typedef struct {
   uint material;
 } Surface;
 
+// A surface by components.
+typedef struct {
+  real position[3], geometric_normal[3], shading_normal[3], uv[2], error;
+  uint material;
+} SurfaceParts;
+
+INLINE void surface_take_apart(const Surface *surface, SurfaceParts *parts) {
+  real3 p = surface->position, g = surface->geometric_normal, s = surface->shading_normal;
+  parts->position[0] = p.x, parts->position[1] = p.y, parts->position[2] = p.z;
+  parts->geometric_normal[0] = g.x, parts->geometric_normal[1] = g.y, parts->geometric_normal[2] = g.z;
+  parts->shading_normal[0] = s.x, parts->shading_normal[1] = s.y, parts->shading_normal[2] = s.z;
+  parts->uv[0] = surface->uv.x, parts->uv[1] = surface->uv.y;
+  parts->error = surface->error, parts->material = surface->material;
+}
+
+INLINE void surface_put_together(const SurfaceParts *parts, Surface *surface) {
+  surface->position = (real3)(parts->position[0], parts->position[1], parts->position[2]);
+  surface->geometric_normal =
+      (real3)(parts->geometric_normal[0], parts->geometric_normal[1], parts->geometric_normal[2]);
+  surface->shading_normal = (real3)(parts->shading_normal[0], parts->shading_normal[1], parts->shading_normal[2]);
+  surface->uv = (real2)(parts->uv[0], parts->uv[1]);
+  surface->error = parts->error, surface->material = parts->material;
+}
+
 // The origin of a ray that leaves `position` along `direction`, moved off the surface by the bound of its
 // error, along the geometric normal `n`, to the side that the ray goes to, then to the next number outward
 // (Pharr, Jakob, Humphreys, PBR section 6.8.6), so that it can neither hit the same surface nor pass one that
 // is farther away than the error.
 INLINE real3 offset_origin(real3 position, real error, real3 n, real3 direction) {
   real distance = error * (fabs(n.x) + fabs(n.y) + fabs(n.z));
-  real3 offset = dot(direction, n) < 0 ? -distance * n : distance * n;
-  real3 origin = position + offset;
-  if (offset.x != 0) origin.x = nextafter(origin.x, offset.x > 0 ? (real)INFINITY : -(real)INFINITY);
-  if (offset.y != 0) origin.y = nextafter(origin.y, offset.y > 0 ? (real)INFINITY : -(real)INFINITY);
-  if (offset.z != 0) origin.z = nextafter(origin.z, offset.z > 0 ? (real)INFINITY : -(real)INFINITY);
-  return origin;
+  real3 offset = scaled3(dot3(direction, n) < 0 ? -distance : distance, n);
+  real3 origin = sum3(position, offset);
+  return (real3)(next_beyond(origin.x, offset.x), next_beyond(origin.y, offset.y), next_beyond(origin.z, offset.z));
 }

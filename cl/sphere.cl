@@ -31,13 +31,14 @@ INLINE real sphere_intersect(global const Shape *shape, Ray ray, real t_max) {
 
 // The surface at a hit; uv is the image mapping of the scene format: q = normalize(to_local p), (q.xy + 1) / 2.
 INLINE void sphere_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
-  real3 centre = convert_real3(shape->sphere.xyz);
-  real radius = shape->sphere.w;
-  real3 n = normalize(fma((real3)(hit.t), ray.direction, ray.origin - centre));
-  surface->position = fma((real3)(radius), n, centre);  // back onto the surface, whatever t lost
+  global const float *sphere = (global const float *)&shape->sphere;
+  real3 centre = (real3)(sphere[0], sphere[1], sphere[2]);
+  real radius = sphere[3];
+  real3 n = unit3(along3(difference3(ray.origin, centre), hit.t, ray.direction));
+  surface->position = along3(centre, radius, n);  // back onto the surface, whatever t lost
   // Rounding of the last sum, of n and its product; and of |f|^2 - radius^2 in sphere_intersect, whose sign
   // must be right for a ray that is spawned here.
-  surface->error = GAMMA(1) * max_component(fabs(surface->position)) + GAMMA(12) * radius;
+  surface->error = GAMMA(1) * max_component(abs3(surface->position)) + GAMMA(12) * radius;
   surface->geometric_normal = surface->shading_normal = n;
   real3 q = normalize(transform_vector(shape->to_local, n));
   surface->uv = q.xy * (real)0.5 + (real)0.5;

@@ -59,12 +59,12 @@ INLINE bool block_closest(global const TriangleBlock *blocks, uint index, Triang
 
 // A unit vector from two 16-bit coordinates on the octahedron (Cigolle et al., JCGT 2014).
 INLINE real3 normal_from_octahedral(uint bits) {
-  real x = (real)(bits & 0xffffu) * ((real)2 / 65535) - 1, y = (real)(bits >> 16u) * ((real)2 / 65535) - 1;
+  real x = (real)(int)(bits & 0xffffu) * ((real)2 / 65535) - 1, y = (real)(int)(bits >> 16u) * ((real)2 / 65535) - 1;
   real z = 1 - fabs(x) - fabs(y);
   real fold = max(-z, (real)0);
   x += x < 0 ? fold : -fold;
   y += y < 0 ? fold : -fold;
-  return normalize((real3)(x, y, z));
+  return unit3((real3)(x, y, z));
 }
 
 INLINE real3 block_vertex(global const TriangleBlock *block, uint vertex, uint lane) {
@@ -72,33 +72,59 @@ INLINE real3 block_vertex(global const TriangleBlock *block, uint vertex, uint l
                  block->position[vertex][2][lane]);
 }
 
+// A power of two that brings `size` into [1, 2), 2^100 at most.
+INLINE real unit_scale(real size) {
+#ifdef CAUSTICL_DOUBLE
+  return ldexp((real)1, -max(ilogb(size), -100));
+#else
+  return as_float((254u << 23) - max(as_uint(size) & 0x7f800000u, 27u << 23));
+#endif
+}
+
+// a d - b c, where what is left when these cancel counts, the roundings of the products and of the factors added back.
+INLINE real cancelled(real a, real d, real b, real c, real a_low, real d_low, real b_low, real c_low) {
+  real p = b * c;
+  real n = fma(a, d, -p) - fma(b, c, -p);
+  return n + ((a * d_low - b * c_low) + (a_low * d - b_low * c));
+}
+
 // a - b is the result plus what is added to `low`, exactly (Knuth's TwoSum).
 INLINE real3 exact_difference(real3 a, real3 b, real3 *low) {
-  real3 d = a - b, c = a - d;
-  *low = (a - (d + c)) + (c - b);
+  real3 d = difference3(a, b), c = difference3(a, d);
+  *low = sum3(difference3(a, sum3(d, c)), difference3(c, b));
   return d;
+}
+
+// What is left of a normal when long products cancel, its largest component 1; `size` is the triangle's.
+INLINE real3 needle_normal(real3 a, real3 b, real3 c, real size) {
+  real3 e_low, f_low;
+  real scale = unit_scale(size);
+  real3 e = exact_difference(scaled3(scale, b), scaled3(scale, a), &e_low);
+  real3 f = exact_difference(scaled3(scale, c), scaled3(scale, a), &f_low);
+  real x = cancelled(e.y, f.z, e.z, f.y, e_low.y, f_low.z, e_low.z, f_low.y);
+  real y = cancelled(e.z, f.x, e.x, f.z, e_low.z, f_low.x, e_low.x, f_low.z);
+  real z = cancelled(e.x, f.y, e.y, f.x, e_low.x, f_low.y, e_low.y, f_low.x);
+  real largest = max_component(abs3((real3)(x, y, z)));
+  bool any = largest > 0;
+  return (real3)(any ? x / largest : 0, any ? y / largest : 0, any ? z / largest : 1);
 }
 
 // The unit normal of a triangle by its winding; the edges are scaled first, since the squared area of a triangle
 // of 1e-10 underflows. A needle's normal is what is left when long products cancel, so there the roundings of edges
 // and products are added back: without, one of 1 : 10^6 is off by some per cent and one of 1 : 10^8 arbitrary.
 INLINE real3 triangle_normal(real3 a, real3 b, real3 c) {
-  real3 e = b - a, f = c - a;
-  real size = max(max_component(fabs(e)), max_component(fabs(f)));
+  real3 e = difference3(b, a), f = difference3(c, a);
+  real size = max(max_component(abs3(e)), max_component(abs3(f)));
   real scale = 1 / size;
-  e *= scale, f *= scale;
-  real3 n = cross(e, f);
-  if (dot(n, n) > (real)0.01 * dot(e, e) * dot(f, f)) return normalize(n);
-
-  real3 e_low, f_low;
-  scale = ldexp((real)1, -max(ilogb(size), -100));  // exact
-  e = exact_difference(b * scale, a * scale, &e_low);
-  f = exact_difference(c * scale, a * scale, &f_low);
-  real3 p = e.zxy * f.yzx;
-  n = fma(e.yzx, f.zxy, -p) - fma(e.zxy, f.yzx, -p);
-  n += (e.yzx * f_low.zxy - e.zxy * f_low.yzx) + (e_low.yzx * f.zxy - e_low.zxy * f.yzx);
-  real largest = max_component(fabs(n));
-  return largest > 0 ? normalize(n / largest) : (real3)(0, 0, 1);
+  e = scaled3(scale, e), f = scaled3(scale, f);
+  real3 n = cross3(e, f);
+  real square = dot3(n, n);
+  real x = n.x, y = n.y, z = n.z, length = sqrt(square);
+  if (!(square > (real)0.01 * dot3(e, e) * dot3(f, f))) {
+    n = needle_normal(a, b, c, size);
+    x = n.x, y = n.y, z = n.z, length = sqrt(dot3(n, n));
+  }
+  return scaled3(1 / length, (real3)(x, y, z));
 }
 
 // The surface at a hit on a triangle. The position is interpolated, which is far more exact than o + t d; its
@@ -109,22 +135,25 @@ INLINE void triangle_surface(global const TriangleBlock *blocks, global const Tr
   uint lane = hit.primitive % 8u;
   global const TriangleAttributes *attribute = attributes + block->primitive[lane];
   real3 a = block_vertex(block, 0, lane), b = block_vertex(block, 1, lane), c = block_vertex(block, 2, lane);
+  real3 geometric_normal = triangle_normal(a, b, c);
   real weight_0 = 1 - hit.u - hit.v;
-  surface->position = weight_0 * a + hit.u * b + hit.v * c;
-  surface->error = (real)GAMMA(7) * max_component(fabs(weight_0 * a) + fabs(hit.u * b) + fabs(hit.v * c));
-  surface->geometric_normal = triangle_normal(a, b, c);
-  surface->shading_normal = surface->geometric_normal;
+  a = scaled3(weight_0, a), b = scaled3(hit.u, b), c = scaled3(hit.v, c);
+  surface->position = sum3(sum3(a, b), c);
+  surface->error = (real)GAMMA(7) * max_component(sum3(sum3(abs3(a), abs3(b)), abs3(c)));
   surface->material = attribute->material & ~TRIANGLE_SMOOTH;
+  real x = geometric_normal.x, y = geometric_normal.y, z = geometric_normal.z;
   if (attribute->material & TRIANGLE_SMOOTH) {
-    real3 n = weight_0 * normal_from_octahedral(attribute->normal[0]) +
-              hit.u * normal_from_octahedral(attribute->normal[1]) +
-              hit.v * normal_from_octahedral(attribute->normal[2]);
-    real squared = dot(n, n);
+    real3 n = sum3(sum3(scaled3(weight_0, normal_from_octahedral(attribute->normal[0])),
+                        scaled3(hit.u, normal_from_octahedral(attribute->normal[1]))),
+                   scaled3(hit.v, normal_from_octahedral(attribute->normal[2])));
+    real squared = dot3(n, n);
     if (squared > (real)1e-12) {
-      n *= rsqrt(squared);
-      surface->shading_normal = dot(n, surface->geometric_normal) < 0 ? -n : n;
+      n = scaled3(dot3(n, geometric_normal) < 0 ? -rsqrt(squared) : rsqrt(squared), n);
+      x = n.x, y = n.y, z = n.z;
     }
   }
+  surface->geometric_normal = geometric_normal;
+  surface->shading_normal = (real3)(x, y, z);
   surface->uv = weight_0 * convert_real2(attribute->uv[0]) + hit.u * convert_real2(attribute->uv[1]) +
                 hit.v * convert_real2(attribute->uv[2]);
 }

@@ -262,7 +262,7 @@ CHECK_SIZE(FilmLayers, 72);
 // How far a pixel's luminance may be off.
 typedef struct {
   float luminance;     // the mean of its estimates
-  float noise;         // standard deviation of that, such that over a picture its distribution is right
+  float noise;         // standard deviation of that by the pixel's own passes: its course tells that of the picture's noise
   float pooled_noise;  // the same, such that it is right of this pixel: see pixel_error of pass_film.cl
   float bias;          // absolute
   float drawn;         // an error as noise makes it: half by how much one half of the passes is brighter than the other

@@ -1,5 +1,5 @@
 // Maps from uniform numbers to directions and points.
-#include "prelude.cl"
+#include "vector.cl"
 
 // Two unit vectors that make a right-handed orthonormal frame with the unit vector n (Duff et al., "Building
 // an Orthonormal Basis, Revisited", JCGT 2017); no branch, exact at n.z = -1.
@@ -31,35 +31,37 @@ INLINE real2 cos_sin_turn(real u) {
   real quarter = rint(4 * u);
   real2 p = cos_sin_eighth(8 * u - 2 * quarter);  // exact
   uint quadrant = (uint)(int)quarter & 3u;
-  if (quadrant & 1u) p = (real2)(-p.y, p.x);
-  return (quadrant & 2u) ? -p : p;
+  real x = (quadrant & 1u) ? -p.y : p.x, y = (quadrant & 1u) ? p.x : p.y;
+  return (real2)((quadrant & 2u) ? -x : x, (quadrant & 2u) ? -y : y);
 }
 
 // A point of the unit disc with uniform density, by the concentric map (Shirley & Chiu 1997): neighbouring
 // numbers give neighbouring points.
 INLINE real2 disc_uniform(real2 u) {
-  real2 p = 2 * u - 1;
-  if (p.x == 0 && p.y == 0) return (real2)(0, 0);
-  bool wide = fabs(p.x) > fabs(p.y);
-  real radius = wide ? p.x : p.y;
-  real2 point = radius * cos_sin_eighth(wide ? p.y / p.x : p.x / p.y);
-  return wide ? point : point.yx;
+  real x = 2 * u.x - 1, y = 2 * u.y - 1;
+  bool wide = fabs(x) > fabs(y);
+  real radius = wide ? x : y, other = wide ? y : x;
+  real2 p = cos_sin_eighth(radius == 0 ? 0 : other / radius);
+  real larger = radius * p.x, smaller = radius * p.y;
+  return (real2)(wide ? larger : smaller, wide ? smaller : larger);
 }
 
 // A unit direction about n with density cos / pi (Malley's method). Never below the horizon.
-INLINE real3 hemisphere_cosine(real2 u, real3 n) {
-  real2 d = disc_uniform(u);
+INLINE real3 hemisphere_cosine_by(real u, real v, real3 n) {
+  real2 d = disc_uniform((real2)(u, v));
   real z = sqrt(max((real)0, 1 - d.x * d.x - d.y * d.y));
   real3 tangent, bitangent;
   orthonormal_basis(n, &tangent, &bitangent);
-  return normalize(d.x * tangent + d.y * bitangent + max(z, (real)1e-6f) * n);
+  return unit3(sum3(sum3(scaled3(d.x, tangent), scaled3(d.y, bitangent)), scaled3(max(z, (real)1e-6f), n)));
 }
+INLINE real3 hemisphere_cosine(real2 u, real3 n) { return hemisphere_cosine_by(u.x, u.y, n); }
 
 // A unit vector with uniform density over the sphere.
 INLINE real3 sphere_uniform(real2 u) {
   real z = 1 - 2 * u.x;
   real r = sqrt(max((real)0, 1 - z * z));
-  return (real3)(r * cos_sin_turn(u.y), z);
+  real2 around = cos_sin_turn(u.y);
+  return (real3)(r * around.x, r * around.y, z);
 }
 
 // A unit direction within the cone about `axis` whose opening has 1 - cos = one_minus_cos, with uniform

@@ -1,0 +1,41 @@
+// Arithmetic of real3 component by component. Compilers that turn loops over paths into vector code (PoCL's) take
+// scalars alone: a loop that holds an operation on a real3, or merges two of them where branches meet, stays scalar.
+// What a loop over a wave of photons calls is therefore written with these; a real3 that is only made and taken apart
+// costs nothing. Sums go from left to right, as those of the operators and of dot().
+#ifndef CAUSTICL_VECTOR_CL
+#define CAUSTICL_VECTOR_CL
+
+#include "prelude.cl"
+
+INLINE real3 sum3(real3 a, real3 b) { return (real3)(a.x + b.x, a.y + b.y, a.z + b.z); }
+INLINE real3 difference3(real3 a, real3 b) { return (real3)(a.x - b.x, a.y - b.y, a.z - b.z); }
+INLINE real3 product3(real3 a, real3 b) { return (real3)(a.x * b.x, a.y * b.y, a.z * b.z); }
+INLINE real3 scaled3(real s, real3 v) { return (real3)(s * v.x, s * v.y, s * v.z); }
+INLINE real3 quotient3(real3 v, real d) { return (real3)(v.x / d, v.y / d, v.z / d); }
+INLINE real3 negated3(real3 v) { return (real3)(-v.x, -v.y, -v.z); }
+INLINE real3 abs3(real3 v) { return (real3)(fabs(v.x), fabs(v.y), fabs(v.z)); }
+INLINE real3 along3(real3 origin, real t, real3 direction) {
+  return (real3)(fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z));
+}
+INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+INLINE real3 cross3(real3 a, real3 b) {
+  return (real3)(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+INLINE real3 choose3(bool first, real3 a, real3 b) {
+  return (real3)(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+
+// v over its length, which must lie between 1e-18 and 1e18: beyond, the square leaves the range of a float.
+INLINE real3 unit3(real3 v) { return scaled3(1 / sqrt(dot3(v, v)), v); }
+
+// The next number beyond x on the side that `side` has the sign of; x where that is 0.
+INLINE real next_beyond(real x, real side) {
+#ifdef CAUSTICL_DOUBLE
+  return side == 0 ? x : nextafter(x, side > 0 ? (real)INFINITY : -(real)INFINITY);
+#else
+  int bits = as_int(x), step = (x > 0) == (side > 0) ? 1 : -1;
+  real next = x == 0 ? copysign(as_float(1), side) : as_float(bits + step);
+  return side == 0 || isinf(x) ? x : next;
+#endif
+}
+#endif
