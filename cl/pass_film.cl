@@ -8,10 +8,8 @@
 // without any blur would pass for blurred, and their error with them.
 #define NOISE_OF_BLUR 2.0f
 
-// What of a pixel's variance, in the picture's error, is that of its neighbours. Rare bright paths have not been seen in
-// most pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
-// With none of it the estimated errors of path-traced pictures were a sixth too small, and those of photon-mapped ones 6%
-// too large; with 0.05 right, and 10% too large (geometric means over 4 and 7 scenes, as in scripts/calibration.sh).
+// What of a pixel's variance, in PixelError.noise, is that of its neighbours. Rare bright paths have not been seen in most
+// pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
 #define NEIGHBOURS_SHARE 0.02f
 
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
