@@ -67,7 +67,7 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
   uint type = emitter->type;
   // Scaled first: the product of long or short edges leaves the range of a float.
   real3 across = cross3(quotient3(b, max_component(abs3(b))), quotient3(c, max_component(abs3(c))));
-  across = unit3(quotient3(across, max_component(abs3(across))));
+  across = unit3(scaled3(unit_scale(max_component(abs3(across))), across));
   real2 d = triangle_uniform((real2)(u, v));
   real dx = d.x, dy = d.y, x = across.x, y = across.y, z = across.z;
   if (type == EMITTER_DISK) {

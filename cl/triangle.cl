@@ -72,15 +72,6 @@ INLINE real3 block_vertex(global const TriangleBlock *block, uint vertex, uint l
                  block->position[vertex][2][lane]);
 }
 
-// A power of two that brings `size` into [1, 2), 2^100 at most.
-INLINE real unit_scale(real size) {
-#ifdef CAUSTICL_DOUBLE
-  return ldexp((real)1, -max(ilogb(size), -100));
-#else
-  return as_float((254u << 23) - max(as_uint(size) & 0x7f800000u, 27u << 23));
-#endif
-}
-
 // a d - b c, where what is left when these cancel counts, the roundings of the products and of the factors added back.
 INLINE real cancelled(real a, real d, real b, real c, real a_low, real d_low, real b_low, real c_low) {
   real p = b * c;

@@ -28,6 +28,15 @@ INLINE real3 choose3(bool first, real3 a, real3 b) {
 // v over its length, which must lie between 1e-18 and 1e18: beyond, the square leaves the range of a float.
 INLINE real3 unit3(real3 v) { return scaled3(1 / sqrt(dot3(v, v)), v); }
 
+// A power of two that brings `size` into [1, 2), 2^100 at most.
+INLINE real unit_scale(real size) {
+#ifdef CAUSTICL_DOUBLE
+  return ldexp((real)1, -max(ilogb(size), -100));
+#else
+  return as_float((254u << 23) - max(as_uint(size) & 0x7f800000u, 27u << 23));
+#endif
+}
+
 // The next number beyond x on the side that `side` has the sign of; x where that is 0.
 INLINE real next_beyond(real x, real side) {
 #ifdef CAUSTICL_DOUBLE

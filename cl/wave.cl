@@ -6,7 +6,7 @@
 
 // Photons of a wave at most: those of a work-group where the device wants loops, as PoCL does; else a work-item's own.
 #if defined(POCL_DEVICE_ADDRESS_BITS)
-#define WAVE_CAPACITY 256u  // LARGEST_WORK_GROUP
+#define WAVE_CAPACITY LARGEST_WORK_GROUP
 #else
 #define WAVE_CAPACITY 1u
 #endif

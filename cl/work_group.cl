@@ -23,21 +23,3 @@ INLINE uint list_reserve(uint count, volatile global uint *total) {
   if (first >= LIST_LIMIT) atomic_sub(total, count);
   return first;
 }
-
-// The same for all items of the group at once: returns where the `count` entries of this item begin. Every item must
-// call it; `places` has room for LARGEST_WORK_GROUP + 1.
-INLINE uint group_reserve(uint count, local uint *places, volatile global uint *total) {
-  places[get_local_id(0)] = count;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  if (get_local_id(0) == 0) {
-    uint sum = 0;
-    for (uint i = 0; i < get_local_size(0); ++i) {
-      uint next = sum + places[i];
-      places[i] = sum;
-      sum = next;
-    }
-    places[LARGEST_WORK_GROUP] = list_reserve(sum, total);
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  return places[LARGEST_WORK_GROUP] + places[get_local_id(0)];
-}

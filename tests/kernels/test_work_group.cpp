@@ -8,9 +8,9 @@ namespace {
 const char* const source = R"(
 #include "work_group.cl"
 kernel void sum_and_reserve(global const uint *counts, volatile global uint *totals, global uint *owners, uint count) {
-  local uint values[LARGEST_WORK_GROUP], places[LARGEST_WORK_GROUP + 1];
+  local uint values[LARGEST_WORK_GROUP];
   uint i = get_global_id(0), wanted = i < count ? counts[i] : 0;
-  uint first = group_reserve(wanted, places, totals);
+  uint first = list_reserve(wanted, totals);
   for (uint k = 0; k < wanted; ++k) owners[first + k] = i;
   group_add(wanted, values, totals + 1);
 }
@@ -18,7 +18,7 @@ kernel void sum_and_reserve(global const uint *counts, volatile global uint *tot
 
 }  // namespace
 
-TEST_CASE("work-groups of any size count all and reserve each place of a list once") {
+TEST_CASE("work-groups of any size count all, and each place of a list is reserved once") {
   RandomInputs random(91);
   std::vector<uint> counts(10001);
   for (uint& count : counts) count = static_cast<uint>(random.engine() % 5);
