@@ -142,7 +142,7 @@ TEST_CASE("--error stops when the estimate is small enough, at the same pass eve
   CHECK(first["passes"] == second["passes"]);
   CHECK(first["error"] == second["error"]);
   // More confidence is a larger error, so more passes.
-  CHECK(stats_of({"--error", "30%", "--confidence", "95%"})["passes"] > first["passes"]);
+  CHECK(stats_of({"--error", "30%", "--confidence", "99%"})["passes"] > first["passes"]);
   const auto paths = stats_of({"--error", "60%", "--integrator", "pt"});
   CHECK(paths["error_bias"] == 0);
   CHECK(paths["error"] == paths["error_noise"]);
