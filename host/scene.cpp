@@ -1,7 +1,6 @@
 #include "scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "error.hpp"
@@ -91,8 +90,7 @@ bool is_lit(const Environment& environment) {
 }
 
 double indirect_radius(const RendererSpec& renderer) {
-  return renderer.indirect_radius.value_or(
-      std::clamp(std::pow(static_cast<double>(renderer.photons) / 1e4, 0.25), 1.0, 4.0));
+  return renderer.indirect_radius.value_or(1.0);
 }
 
 bool has_light(const Scene& scene) {

@@ -55,9 +55,7 @@ TEST_CASE("renderers") {
   CHECK(sppm.schedule == Schedule::geometric);
   CHECK(sppm.radius_decay == 0.9);
   CHECK(sppm.direct_light == DirectLight::photons);
-  CHECK(indirect_radius(renderer(R"({"photon_sample": 160000})")) == Approx(2));
-  CHECK(indirect_radius(renderer(R"({"photon_sample": 10})")) == 1);
-  CHECK(indirect_radius(renderer(R"({"photon_sample": 1e9})")) == 4);
+  CHECK(indirect_radius(renderer(R"({"photon_sample": 160000})")) == 1);
   CHECK(renderer(R"({"schedule": "global", "direct_light": "shadow_rays"})").schedule == Schedule::global);
   CHECK(renderer(R"({"direct_light": "shadow_rays"})").direct_light == DirectLight::shadow_rays);
 
