@@ -21,7 +21,8 @@ INLINE uint grid_bucket(Grid grid, real3 p) {
 
 // The bucket of a photon at p with that word of marks and normal.
 INLINE uint photon_bucket(PhotonGrids grids, real3 p, uint normal) {
-  return grid_bucket(grids.grid[grids.separate && (normal & INDIRECT_PHOTON) ? INDIRECT_PHOTONS : FOCUSED_PHOTONS], p);
+  if (grids.separate && (normal & INDIRECT_PHOTON)) return grid_bucket(grids.grid[INDIRECT_PHOTONS], p);
+  return grid_bucket(grids.grid[FOCUSED_PHOTONS], p);
 }
 
 // A unit normal in 24 bits, eight a component. Coarse, and enough to tell the sides of a surface and the

@@ -32,6 +32,7 @@ kernel void count_around(global VisiblePoint *visible_points, global const uint 
   real count = 0;
   bool nothing = !(point.weight[0] + point.weight[1] + point.weight[2] > 0);
   bool in_medium = HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM);
+#pragma unroll
   for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
     if (nothing || !grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
     real wider = kind_radius2(&params, kind);
@@ -82,6 +83,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0)) continue;
     bool in_medium = HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM);
+#pragma unroll
     for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
       Gathered sum;

@@ -1,8 +1,6 @@
 // The scalars that every kernel of a render takes.
 #pragma once
 
-#include <algorithm>
-
 #include "device.hpp"
 #include "scene.hpp"
 #include "spectrum.hpp"
@@ -47,13 +45,9 @@ inline void begin_pass(Params& params, std::uint32_t pass) {
   }
 }
 
-/// Work-items of one launch, whose visible points are held at once: on a CPU what stays in its caches, since
-/// more would take memory for nothing; a GPU needs many more to fill it.
+/// Work-items of one launch: on a CPU what stays in cache; a GPU needs many more to fill it.
 inline std::size_t launch_chunk(const Device& device) {
-  constexpr std::size_t per_core = 1 << 13, most = 1 << 16;
-  if (device.info().type == "cpu")
-    return std::clamp<std::size_t>(per_core * device.info().compute_units, per_core, most);
-  return std::size_t{1} << 20;
+  return std::size_t{1} << (device.info().type == "cpu" ? 16 : 20);
 }
 
 }  // namespace causticl

@@ -56,7 +56,7 @@ TEST_CASE("packets of camera rays give the picture of single ones: any number of
 }
 
 TEST_CASE("packets of camera rays give the picture of single ones: chunks that end within a row") {
-  // 8,192 pixels a launch, or a multiple of that, end in the middle of a pixel row and in that of a tile.
+  // 65,536 paths a launch end in the middle of a pixel row and in that of a tile.
   check_same(shipped_scene("cornell_box.json", 163, 211), 2);
 }
 
