@@ -89,9 +89,7 @@ bool is_lit(const Environment& environment) {
   return false;
 }
 
-double indirect_radius(const RendererSpec& renderer) {
-  return renderer.indirect_radius.value_or(1.0);
-}
+double indirect_radius(const RendererSpec& renderer) { return renderer.indirect_radius.value_or(1.0); }
 
 bool has_light(const Scene& scene) {
   return (scene.environment && is_lit(*scene.environment)) ||

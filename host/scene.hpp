@@ -105,11 +105,7 @@ struct RendererSpec {
   DirectLight direct_light = DirectLight::shadow_rays;  // key "direct_light": "shadow_rays" | "photons"
 };
 
-/// The radius of indirect photons over that of the others: the scene's own, or one that grows with the
-/// photons of a pass. The first radius finds as many of them however many there are, R ~ photons^(-1/2);
-/// least is the error where noise ~ 1 / (R photons^(1/2)) and blur, which goes with R along edges, are alike,
-/// R ~ photons^(-1/4). The quotient of the two is 1 at 10,000 photons, where a larger radius gains nothing in
-/// the shipped scenes.
+/// The radius of indirect photons over that of the others: the scene's own, else 1.
 double indirect_radius(const RendererSpec& renderer);
 
 /// What fills all space outside glass.
