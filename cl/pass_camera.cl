@@ -4,6 +4,7 @@
 #include "direct.cl"
 #include "grid.cl"
 #include "layers.cl"
+#include "unlikely_lobe.cl"
 #include "visible_point.cl"
 #include "work_group.cl"
 
@@ -43,6 +44,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
+  bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
   real3 segment = (real3)(0, 0, 0);  // of a visible point in the medium
   Interior interior = interior_none();
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
@@ -71,7 +73,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       }
     }
     if (!met) {
-      if (HAS(EFFECT_ENVIRONMENT))
+      if (HAS(EFFECT_ENVIRONMENT) && !counted)
         radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
@@ -85,7 +87,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-    radiance_add(&radiance, history, throughput * emission);
+    if (!counted) radiance_add(&radiance, history, throughput * emission);
     if (depth == params->max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
@@ -93,6 +95,9 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     if (HAS(EFFECT_DISPERSION))
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
     real4 random = random_at(stream, depth, DIM_BSDF);
+    if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
+      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
+                           params->max_depth, counted, &radiance, &rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (bsdf.kind == MATERIAL_DIFFUSE) {

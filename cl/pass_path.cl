@@ -2,6 +2,7 @@
 #include "camera.cl"
 #include "direct.cl"
 #include "film.cl"
+#include "unlikely_lobe.cl"
 #include "work_group.cl"
 
 // The ray with which path `index` of the chunk, and of its pixel, begins. Four consecutive samples stratify a pixel
@@ -26,6 +27,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
   Radiance radiance = radiance_none();
   uint history = HISTORY_NO_RECEIVER;
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
+  bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
   Interior interior = interior_none();
   for (uint depth = 0; depth <= max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
@@ -54,7 +56,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
       }
     }
     if (!met) {
-      if (HAS(EFFECT_ENVIRONMENT))
+      if (HAS(EFFECT_ENVIRONMENT) && !counted)
         radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
@@ -67,7 +69,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     }
 
     real3 emission = emission_at(material, &surface, ray.direction);
-    if (max_component(emission) > 0) {
+    if (max_component(emission) > 0 && !counted) {
       real weight = 1;
       if (bsdf_pdf > 0) weight = emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
       radiance_add(&radiance, history, throughput * emission * weight);
@@ -79,8 +81,12 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     if (HAS(EFFECT_DISPERSION))
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
     real4 random = random_at(stream, depth, DIM_BSDF);
+    if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
+      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
+                           max_depth, counted, &radiance, rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
+    counted = counted && bsdf_is_specular(&bsdf);
     history = history_after(history, bsdf_is_specular(&bsdf));
     if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
       real3 n = facing_normal(&surface, ray.direction);

@@ -188,6 +188,9 @@ TEST_CASE("both integrators agree on every layer of the glass caustic", "[long]"
   scene.renderer.radius = 0.4;
   const Picture sppm = render_layers(scene, Integrator::sppm, 12000),
                 pt = render_layers(scene, Integrator::pt, 40000);
+  // A path finds the small lamp through glass once in hundreds: over seeds, the caustic's brightness by path
+  // tracing varies by 3.3% (standard deviation) at 4,000 samples a pixel, which is 1% at 40,000.
   for (const char* name : layer_names)
-    check_alike(name, layer_of(sppm, name), layer_of(pt, name), 0.01, 0.03);
+    check_alike(name, layer_of(sppm, name), layer_of(pt, name), name == std::string("caustic") ? 0.035 : 0.01,
+                0.03);
 }
