@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "bench/stopwatch.hpp"
+#include "meshes.hpp"
 #include "render/reference_comparison.hpp"
 
 namespace causticl {
@@ -44,6 +45,29 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
       static_cast<double>(scene.renderer.photons) / result.seconds_per_pass;
   if (compare) result.relative_rmse = compare_with_references(rendered.picture).relative_rmse;
   return result;
+}
+
+/// The scene with a torus knot of 100,000 triangles in the place and of the size of each sphere.
+Scene with_knots(Scene scene) {
+  Mesh knot;
+  for (const TreeTriangle& triangle : torus_knot_mesh(100000)) {
+    const auto first = static_cast<std::uint32_t>(knot.positions.size());
+    for (const auto& corner : triangle.position) knot.positions.push_back({corner[0], corner[1], corner[2]});
+    knot.position_index.push_back({first, first + 1, first + 2});
+    knot.normal_index.push_back({no_index, no_index, no_index});
+    knot.uv_index.push_back({no_index, no_index, no_index});
+  }
+  for (Object& object : scene.objects) {
+    if (object.shape != Object::Shape::sphere) continue;
+    const double size = object.radius / 3;
+    object.shape = Object::Shape::mesh;
+    object.mesh = static_cast<int>(scene.meshes.size());
+    object.smooth = false;
+    object.transform = Transform::scale({size, size, size}).followed_by(object.transform);
+  }
+  scene.meshes.push_back(std::move(knot));
+  scene.file = "two knots in its place";
+  return scene;
 }
 
 /// In a child process: one pass of a tiny Cornell box. Writes {whole seconds, build seconds} to `out`.
@@ -98,6 +122,7 @@ std::vector<RenderBenchResult> bench_render(Device& device, int passes) {
   const Scene scene = load_scene(reference_folder() + "cornell_spheres.json");
   for (const auto direct_light : {DirectLight::shadow_rays, DirectLight::photons})
     results.push_back(bench_scene(device, scene, direct_light, passes, true));
+  results.push_back(bench_scene(device, with_knots(scene), DirectLight::shadow_rays, passes, false));
   return results;
 }
 
