@@ -14,5 +14,6 @@
 #define DIM_QUANTISE 2u    // dithering of stored flux (xyz)
 #define DIM_CHANNEL 3u     // which colour channel goes on through dispersive glass (x)
 #define DIM_MEDIUM 4u      // free flight in the medium: channel (x), distance (y)
+#define DIM_LOOK 5u        // Russian roulette of looks along unlikely lobes (x)
 
 #endif

@@ -15,6 +15,7 @@ typedef struct {
   float emitter_density;
   real3 inverse_wavelength2;  // of each channel, in um^-2
   Medium medium;
+  bool emission_met;  // as in Params
 } Scene;
 
 // Every kernel that traces takes these and begins with SCENE_INIT(params).
@@ -29,7 +30,8 @@ typedef struct {
                  (real3)((params).inverse_wavelength2[0], (params).inverse_wavelength2[1],                            \
                          (params).inverse_wavelength2[2]),                                                            \
                  {convert_real3((params).extinction.xyz), convert_real3((params).scattering.xyz),                     \
-                  (params).extinction.w}}
+                  (params).extinction.w},                                                                             \
+                 (params).emission_met != 0}
 
 // Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
 INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {

@@ -222,8 +222,10 @@ typedef struct {
   uint first_photon;         // of those that this launch traces: photons [first_photon, first_photon + photon_count) of
                              //   the pass; several devices share them
   float indirect_radius;     // the radius within which indirect photons are gathered, over that of the others
+  uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
+  uint unused[3];
 } Params;
-CHECK_SIZE(Params, 224);
+CHECK_SIZE(Params, 240);
 
 // What SPPM keeps of a pixel between passes besides the film: its squared radius as an unevaluated sum
 // hi + lo, and the number of all photons found so far, as two halves. N of the paper is alpha times that.

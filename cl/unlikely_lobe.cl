@@ -1,9 +1,10 @@
 // Emission that a camera path would see by the unlikely lobe of smooth glass or plastic: the highlights of lamps, and
-// skies, in glass balls and on varnish. Left to chance, one path in twenty-five brings all of it, and pictures sparkle for
-// thousands of passes. So at each of its first vertices the path looks along the lobe that it is unlikely to take, and
-// what that shows counts by the lobe's probability; from there on the look follows the likely lobes, to the first surface
-// that is no perfect mirror or glass. The path itself then counts no emission that a look has counted: what it meets after
-// an unlikely lobe by likely ones alone. Every way to a lamp is so counted once, at its last unlikely lobe.
+// skies, in glass balls and on varnish. Left to chance, one path in twenty-five brings all of it, and pictures sparkle
+// for thousands of passes. So at its first vertices, as long as all of them were smooth, the path looks along the lobe
+// that it is unlikely to take, and what that shows counts by the lobe's probability; from there on the look follows the
+// likely lobes, to the first surface that is no perfect mirror or glass. The path itself then counts no emission that a
+// look has counted: what it meets after such a lobe by likely ones alone. Every way to a lamp is so counted once, by the
+// look at its last unlikely lobe or, where the path does not look, by the path.
 #include "direct.cl"
 #include "layers.cl"
 
@@ -13,8 +14,8 @@
 #endif
 
 INLINE real glass_reflectance(const Bsdf *bsdf, const Surface *surface, real3 d, real3 n) {
-  real eta = dot(surface->geometric_normal, d) < 0 ? bsdf->ior : 1 / bsdf->ior, cosine_t;
-  return fresnel_dielectric(fmin(-dot(d, n), (real)1), eta, &cosine_t);
+  real eta = dot3(surface->geometric_normal, d) < 0 ? bsdf->ior : 1 / bsdf->ior, cosine_t;
+  return fresnel_dielectric(fmin(-dot3(d, n), (real)1), eta, &cosine_t);
 }
 
 INLINE bool is_smooth(const Bsdf *bsdf, uint kind) { return bsdf->kind == kind && !bsdf_is_rough(bsdf); }
@@ -53,10 +54,14 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
     radiance_add(radiance, HISTORY_NO_RECEIVER, carried * emission_at(material, &surface, ray.direction));
     if (depth == max_depth) return;
     bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-    if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    if (HAS(EFFECT_DISPERSION))
+    if (HAS(EFFECT_DISPERSION))  // which decides whether a lobe is smooth
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &carried);
+    if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
+    // What absorbing glass reflects to and fro is not worth following for long.
+    real survival = fmin(1000 * max_component(carried), (real)1);
+    if (random_at(stream, depth, DIM_LOOK).x >= survival) return;
+    carried /= survival;
     if (HAS(EFFECT_GLASS) && bsdf.kind == MATERIAL_GLASS) {
       real reflectance = glass_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
       lobe_number = reflectance < (real)0.5f ? 1 : 0;
@@ -75,9 +80,9 @@ INLINE bool look_aside(const Scene *scene, const Bsdf *bsdf, const Surface *surf
   bool plastic = HAS(EFFECT_PLASTIC) && is_smooth(bsdf, MATERIAL_PLASTIC);
   if (!glass && !plastic) return counted && bsdf_is_specular(bsdf);
   // In a medium the look would be a path of its own, which may be scattered.
-  bool looks = history == HISTORY_NO_RECEIVER && depth < LOOKING_VERTICES;
+  bool looks = scene->emission_met && history == HISTORY_NO_RECEIVER && depth < LOOKING_VERTICES;
   if (HAS(EFFECT_MEDIUM) && max_component(scene->medium.extinction) > 0) looks = false;
-  // The coat of plastic is its unlikely lobe, and weighs what it reflects.
+  // The coat of plastic is looked along, likely or not, and weighs what it reflects.
   real probability = 1, toward = 0;
   bool taken = true;
   Bsdf lobe = *bsdf;

@@ -92,9 +92,12 @@ bool is_lit(const Environment& environment) {
 double indirect_radius(const RendererSpec& renderer) { return renderer.indirect_radius.value_or(1.0); }
 
 bool has_light(const Scene& scene) {
+  return has_visible_light(scene) || std::any_of(scene.lights.begin(), scene.lights.end(),
+                                                 [](const DeltaLight& light) { return is_lit(light); });
+}
+
+bool has_visible_light(const Scene& scene) {
   return (scene.environment && is_lit(*scene.environment)) ||
-         std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const DeltaLight& light) { return is_lit(light); }) ||
          std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
            return max_component(scene.materials[static_cast<std::size_t>(object.material)].emission) > 0;
          });

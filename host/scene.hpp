@@ -140,6 +140,9 @@ bool is_lit(const Environment& environment);
 /// Whether anything in the scene emits light.
 bool has_light(const Scene& scene);
 
+/// Whether a ray can meet light: of a surface or the environment.
+bool has_visible_light(const Scene& scene);
+
 /// Whether anything moves while the shutter is open.
 bool has_motion(const Scene& scene);
 

@@ -47,7 +47,7 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
   return result;
 }
 
-/// The scene with a torus knot of 100,000 triangles in the place and of the size of each sphere.
+/// The scene with a torus knot of 100,000 triangles in place of each sphere, within its surface.
 Scene with_knots(Scene scene) {
   Mesh knot;
   for (const TreeTriangle& triangle : torus_knot_mesh(100000)) {
@@ -59,14 +59,14 @@ Scene with_knots(Scene scene) {
   }
   for (Object& object : scene.objects) {
     if (object.shape != Object::Shape::sphere) continue;
-    const double size = object.radius / 3;
+    const double size = object.radius / 3.5;
     object.shape = Object::Shape::mesh;
     object.mesh = static_cast<int>(scene.meshes.size());
     object.smooth = false;
     object.transform = Transform::scale({size, size, size}).followed_by(object.transform);
   }
   scene.meshes.push_back(std::move(knot));
-  scene.file = "two knots in its place";
+  scene.file = "cornell_knots";
   return scene;
 }
 

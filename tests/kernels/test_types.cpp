@@ -89,6 +89,7 @@ const std::vector<Field> fields{
     FIELD(Params, photon_capacity),
     FIELD(Params, alpha),
     FIELD(Params, indirect_radius),
+    FIELD(Params, emission_met),
     FIELD(Params, radius2),
     FIELD(Params, shadow_rays),
     FIELD(Params, delta_lights),

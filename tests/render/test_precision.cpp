@@ -17,7 +17,7 @@ struct PrecisionComparison {
   double noise;       // relative MSE of the float picture, by a second seed
   double difference;  // relative MSE between float and double
   double apart;       // share of the pixels that differ by 1% of the picture's mean or more
-  double nudge = 0;   // relative MSE in double between the scene and nudged(); 0 where nobody asked
+  unsigned seeds = 1;
   double ratio() const { return noise / std::max(difference, 1e-300); }
 };
 
@@ -34,37 +34,30 @@ double pixels_apart(const Picture& a, const Picture& b) {
   return 3.0 * static_cast<double>(count) / static_cast<double>(a.rgb.size());
 }
 
-PrecisionComparison compare(const Scene& scene, Integrator integrator, int passes) {
-  const Picture one = render_with(scene, integrator, passes, 1).picture;
-  const Picture other = render_with(scene, integrator, passes, 2).picture;
-  const auto exact = render_with(scene, integrator, passes, 1, Precision::float64);
+PrecisionComparison compare_once(const Scene& scene, Integrator integrator, int passes, unsigned seed) {
+  const Picture one = render_with(scene, integrator, passes, seed).picture;
+  const Picture other = render_with(scene, integrator, passes, seed + 1).picture;
+  const auto exact = render_with(scene, integrator, passes, seed, Precision::float64);
   CHECK(exact.statistics.precision == Precision::float64);
   CHECK(exact.picture.rgb != one.rgb);  // else this was no other build
   // The difference of two independent pictures has twice the noise of one.
   return {0.5 * relative_mse(one, other), relative_mse(one, exact.picture), pixels_apart(one, exact.picture)};
 }
 
-/// The scene seen from the next float along an axis: as near as two float scenes can be.
-Scene nudged(Scene scene, int axis) {
-  double& coordinate = scene.camera.origin[axis];
-  coordinate = std::nextafter(static_cast<float>(coordinate), INFINITY);
-  return scene;
-}
-
-/// Whether float is within what is asked of it: a hundredth of the picture's noise. Glass meshes may part two
-/// paths by ten times more at each hit, so that float and double, begun a rounding apart, end on different
-/// triangles, and a few bright samples decide. Then the question is whether the arithmetic or the scene does
-/// so, which double answers by the same scene seen from one float further. Float rounds at every hit, not at
-/// the first alone: it may differ from double four times as much as double does from itself.
-bool is_good_enough(PrecisionComparison& found, const Scene& scene, Integrator integrator, int passes) {
-  if (found.ratio() >= 100) return true;
-  const auto exact = [&](const Scene& s) {
-    return render_with(s, integrator, passes, 1, Precision::float64).picture;
-  };
-  const Picture here = exact(scene);
-  for (const int axis : {0, 1, 2})
-    found.nudge = std::max(found.nudge, relative_mse(exact(nudged(scene, axis)), here));
-  return found.difference <= 4 * found.nudge;
+/// Glass meshes may part two paths by ten times more at each hit, so that float and double, begun a rounding
+/// apart, end on different triangles, and five bright pixels make four fifths of the difference: another seed
+/// may have four times as much. Where one seed comes near to what is asked, eight together decide.
+PrecisionComparison compare(const Scene& scene, Integrator integrator, int passes) {
+  PrecisionComparison found = compare_once(scene, integrator, passes, 1);
+  constexpr unsigned seeds = 8;
+  if (found.ratio() >= 200) return found;
+  for (unsigned seed = 2; seed <= seeds; ++seed) {
+    const PrecisionComparison more = compare_once(scene, integrator, passes, seed);
+    found.noise += more.noise, found.difference += more.difference, found.apart += more.apart;
+  }
+  found.noise /= seeds, found.difference /= seeds, found.apart /= seeds;
+  found.seeds = seeds;
+  return found;
 }
 
 bool has_double() {
@@ -123,22 +116,21 @@ TEST_CASE("float is as good as double on every shipped scene at 64 passes", "[lo
   std::sort(names.begin(), names.end());
   REQUIRE(names.size() > 15);
   std::printf("%-28s %-10s %-11s %-11s %-11s %-13s %s\n", "128 x 96, 64 passes", "integrator", "noise",
-              "difference", "ratio", "pixels apart", "double, nudged");
+              "difference", "ratio", "pixels apart", "seeds");
   for (const auto& name : names) {
     Scene scene = shipped_scene(name, 128, 96);
     scene.renderer.photons = 20000;
     for (const Integrator integrator : {Integrator::sppm, Integrator::pt}) {
       const char* const kind = integrator == Integrator::pt ? "pt" : "sppm";
-      PrecisionComparison found = compare(scene, integrator, 64);
-      const bool good = is_good_enough(found, scene, integrator, 64);
-      std::printf("%-28s %-10s %-11.2e %-11.2e %-11.2e %-13s", name.c_str(), kind, found.noise,
-                  found.difference, found.ratio(), (std::to_string(100 * found.apart) + "%").c_str());
-      std::printf(found.nudge > 0 ? " %.2e\n" : "\n", found.nudge);
+      const PrecisionComparison found = compare(scene, integrator, 64);
+      std::printf("%-28s %-10s %-11.2e %-11.2e %-11.2e %-13s %u\n", name.c_str(), kind, found.noise,
+                  found.difference, found.ratio(), (std::to_string(100 * found.apart) + "%").c_str(),
+                  found.seeds);
       std::fflush(stdout);
       INFO(name << ", " << kind);
       // A path that decides otherwise in float, at a glass surface or a silhouette, is another sample of the
       // same distribution: it takes one in 200 of them to come down to this.
-      CHECK(good);
+      CHECK(found.ratio() >= 100);
     }
   }
 }

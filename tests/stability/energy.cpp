@@ -155,7 +155,7 @@ CheckResult environment_furnace(CheckContext& context) {
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const double column = static_cast<double>(i % 3), row = static_cast<double>(i / 3);
     scene.objects.push_back(
-        make_sphere({1.05 * (column - 1), 1.05 * (row - 0.5), 0}, 0.5, static_cast<int>(i)));
+        make_sphere({1.05 * (column - 1), 1.05 * (row - 1), 0}, 0.5, static_cast<int>(i)));
     scene.materials.push_back(materials[i].spec);
   }
   Environment environment;
@@ -163,7 +163,7 @@ CheckResult environment_furnace(CheckContext& context) {
   environment.map.height = 32;
   environment.map.rgba.assign(std::size_t{4} * 64 * 32, 1.0f);
   scene.environment = environment;
-  // A seventh of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
+  // A sixth of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
   // its light.
   return both_are_one(context, std::move(scene), 0.5);
 }
