@@ -6,8 +6,8 @@
 
 INLINE real3 photon_position(global const Photon *photon) { return vload3(0, photon->position); }
 
-// counts[b] = photons in bucket b of both grids; must be zero before. ranks[i] = those counted there before photon i: in an order
-// that execution gives, and nothing that follows depends on it, since sums over photons are sums of integers.
+// counts[b] = photons in bucket b of both grids; must be zero before. ranks[i] = those counted there before photon i:
+// in an order that execution gives, and nothing that follows depends on it, since sums over photons are sums of integers.
 kernel void count_photons(global const Photon *photons, volatile global uint *counts, global uint *ranks,
                           PhotonGrids grids) {
   uint i = get_global_id(0);

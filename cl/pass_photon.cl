@@ -235,7 +235,10 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, uint first, ui
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params) {
   uint first = get_global_id(0), count = WAVE_CAPACITY == 1u ? 1u : (uint)get_local_size(0);
-  if (first >= params.photon_count || (WAVE_CAPACITY > 1u && get_local_id(0) != 0)) return;
+  if (first >= params.photon_count) return;
+  if (WAVE_CAPACITY > 1u) {
+    if (get_local_id(0) != 0) return;
+  }
   SCENE_INIT(params);
   count = min(count, params.photon_count - first);
   uint rays = wave_paths(&scene, &params, params.first_photon + first, count, photons, counters);

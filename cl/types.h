@@ -1,7 +1,7 @@
 // Every struct that the host and the kernels share, compiled by C++20 and by OpenCL C alike.
 //
-// Only scalars, float2/float4 and uint2/uint4 appear here, and `real` in what passes hand on: float3, bool, size_t, pointers and enums have
-// sizes that differ between the two languages. CHECK_SIZE stops either compiler when a layout drifts, and a
+// Only scalars, float2/float4 and uint2/uint4 appear here, and `real` in what passes hand on: float3, bool, size_t,
+// pointers and enums have sizes that differ between the two languages. CHECK_SIZE stops either compiler when a layout drifts, and a
 // test compares the offset of every field as the device sees it with offsetof on the host.
 #ifndef CAUSTICL_TYPES_H
 #define CAUSTICL_TYPES_H

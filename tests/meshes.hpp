@@ -37,6 +37,17 @@ TriangleMesh grid_mesh(int columns, int rows, bool closed, const Point& point) {
   return mesh;
 }
 
+/// A square of side 1 across an axis, in 20 x 20 cells.
+inline TriangleMesh flat_mesh(int axis) {
+  return grid_mesh(20, 20, false, [axis](double u, double v) {
+    Vec3 p;
+    p[axis] = 0.25;
+    p[(axis + 1) % 3] = u - 0.5;
+    p[(axis + 2) % 3] = v - 0.5;
+    return p;
+  });
+}
+
 constexpr double tau = 6.283185307179586;
 
 inline TriangleMesh torus_mesh(int columns, int rows, double radius, double tube) {
