@@ -139,3 +139,27 @@ TEST_CASE("looking along unlikely lobes leaves what paths see as it is, and take
     CHECK(looking_variance < 0.5 * chance_variance);
   }
 }
+
+TEST_CASE("a look ends at glass that its index at one wavelength makes rough") {
+  // Varnish reflects a lamp that lies behind a ball whose index is that of air but for dispersion.
+  const Scene scene = scene_from_text(R"({
+    "max_depth": 8, "camera": {"position": [0, 1, 4], "target": [0, 0, 0], "fov": 60},
+    "materials": {"varnish": {"type": "plastic", "color": [0, 0, 0]},
+                  "faint": {"type": "glass", "cauchy": [1.0, 0.01], "roughness": 0.3},
+                  "lamp": {"type": "diffuse", "color": [0, 0, 0], "emission": [40, 50, 60]}},
+    "objects": [{"type": "box", "material": "varnish", "size": [4, 0.2, 4],
+                 "transform": [{"type": "shift", "x": 0, "y": -0.1, "z": 0}]},
+                {"type": "sphere", "material": "faint", "radius": 0.5,
+                 "transform": [{"type": "shift", "x": 0, "y": 1, "z": -4}]},
+                {"type": "sphere", "material": "lamp", "radius": 1.5,
+                 "transform": [{"type": "shift", "x": 0, "y": 2, "z": -8}]}]})");
+  const std::vector<float4> targets{to_float4({0, 0, 0}), to_float4({0.05, 0, 0.02})};
+  const auto looking = seen(scene, targets, ""),
+             chance = seen(scene, targets, "#define LOOKING_VERTICES 0u\n");
+  for (std::size_t i = 0; i < looking.size(); ++i) {
+    const double deviation = std::sqrt((looking[i].variance + chance[i].variance) / each);
+    INFO(looking[i].mean << " and " << chance[i].mean << ", deviation " << deviation);
+    CHECK(chance[i].mean > 0.5);
+    CHECK(std::fabs(looking[i].mean - chance[i].mean) < 5 * deviation + 1e-4);
+  }
+}
