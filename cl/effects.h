@@ -27,7 +27,9 @@
 #define EFFECT_MOTION (1u << 17)     // objects that move while the shutter is open
 #define EFFECT_MEDIUM (1u << 18)     // a medium that fills the scene
 
-#define EFFECT_ALL ((1u << 19) - 1u)
+#define EFFECT_GUIDED_PHOTONS (1u << 19) // photons guided to what the camera sees
+
+#define EFFECT_ALL ((1u << 20) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
 #define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture

@@ -3,9 +3,6 @@
 #include "layers.cl"
 #include "medium.cl"
 
-// Photons whose surface leans away by more than this cosine lie on another wall.
-#define GATHER_NORMAL_COSINE 0.5f
-
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
   ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2

@@ -25,6 +25,9 @@ INLINE uint photon_bucket(PhotonGrids grids, real3 p, uint normal) {
   return grid_bucket(grids.grid[FOCUSED_PHOTONS], p);
 }
 
+// Photons whose surface leans away by more than this cosine lie on another wall.
+#define GATHER_NORMAL_COSINE 0.5f
+
 // A unit normal in 24 bits, eight a component. Coarse, and enough to tell the sides of a surface and the
 // walls of a corner apart, which is all that it is compared for.
 INLINE uint normal_pack(real3 n) {

@@ -1,5 +1,6 @@
 // The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
 #include "gather.cl"
+#include "marked_cells.cl"
 #include "sppm.cl"
 #include "visible_point.cl"
 
@@ -114,6 +115,16 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
                     params.pass, counters);
   if (params.radius2 > 0) return;
   pixels[index] = sppm_update(pixel, found, params.alpha);
+}
+
+// Marks the cells around visible points on surfaces, for guided photons: see mark_cells.
+kernel void mark_visible_points(global const VisiblePoint *visible_points, volatile global uint *marks, Grid cells,
+                                float reach, uint count) {
+  uint i = get_global_id(0);
+  if (!HAS(EFFECT_GUIDED_PHOTONS) || i >= count) return;
+  VisiblePoint point = visible_points[i];
+  if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0) || (point.normal & IN_MEDIUM)) return;
+  mark_cells(marks, cells, normal_unpack(point.normal), vload3(0, point.position), reach);
 }
 
 // Every pixel's first radius.

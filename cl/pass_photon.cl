@@ -1,9 +1,7 @@
 // Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
 // medium scatters them.
 #include "direct.cl"
-#include "grid.cl"
-#include "wave.cl"
-#include "work_group.cl"
+#include "guided_photons.cl"
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
@@ -88,12 +86,15 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   real arrival = shading_normal_arrival(&surface, direction);
   real3 arrived = scaled3(arrival, flux);
   // With shadow rays the light that arrives straight from an emitter is counted there.
-  if ((diffuse || plastic) && !black && !(shadow_rays && depth == 0)) {
+  bool counted = shadow_rays && depth == 0, landed_here = (diffuse || plastic) && !black;
+  if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
+  if (landed_here) {
     real3 landed = arrived;
     if (plastic) landed *= fresnel_transmittance(-dot(direction, n), bsdf.ior);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
-    events |= photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
-                            photon->history, random_at(stream, depth, DIM_QUANTISE), record);
+    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
+                                photon->history, random_at(stream, depth, DIM_QUANTISE), record);
+    events |= counted ? EVENT_LANDED : stored;
   }
   bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
   if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
@@ -119,23 +120,38 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   return events | (alive ? EVENT_ALIVE : 0u);
 }
 
+// The random numbers of photon i of the wave.
+INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) {
+  RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, wave->index[i],
+                         HAS(EFFECT_GUIDED_PHOTONS) ? wave->copy[i] : 0, HAS(EFFECT_GUIDED_PHOTONS) ? wave->fresh[i] : 0};
+  return stream;
+}
+
 // Starts `count` photons of the pass, from number `first` on.
-OUTLINE void wave_emit(const Scene *from, const Params *settings, uint first, uint count, Wave *wave) {
+OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, uint first, uint count, Wave *wave) {
   const Scene scene = *from;
   const Params params = *settings;
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, first + i};
-    wave->primitive[i] = photon_emitter(&scene, stream);
+    PhotonStart start = {first + i, 0, 0, 0, 1};
+    if (HAS(EFFECT_GUIDED_PHOTONS)) {
+      start = guided_start(guide, &params, first + i);
+      wave->copy[i] = start.copy;
+      wave->fresh[i] = start.fresh;
+      wave->seed[i] = start.seed;
+      wave->useful[i] = 0;
+    }
+    wave->index[i] = start.path;
+    wave->flux[0][i] = start.share;
+    wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
   }
 #if VECTORISED(LOOPED_EMISSION)
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, first + i};
     real3 flux;
-    Ray ray = photon_emit_from(&scene, wave->primitive[i], stream, &flux);
+    Ray ray = photon_emit_from(&scene, wave->primitive[i], wave_stream(&params, wave, i), &flux);
+    if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon = {ray, flux, HISTORY_STRAIGHT, 0, interior_none()};
-    wave->index[i] = first + i;
     wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
     wave_put(wave, i, &photon);
   }
@@ -159,7 +175,7 @@ OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth,
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = {params.seed ^ PHOTON_SEED, params.pass, wave->index[i]};
+    RandomStream stream = wave_stream(&params, wave, i);
     Hit hit = {wave->t[i], wave->primitive[i], wave->u[i], wave->v[i], 0};
     uint events = 0;
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
@@ -212,11 +228,11 @@ OUTLINE uint wave_compact(uint count, Wave *wave) {
 }
 
 // Traces photons [first, first + count) of the pass, all of them one event at a time. Returns the number of rays.
-OUTLINE uint wave_paths(const Scene *scene, const Params *params, uint first, uint count, global Photon *photons,
-                        volatile global Counters *counters) {
+OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, uint first, uint count,
+                        global Photon *photons, volatile global Counters *counters) {
   Wave wave;
   uint rays = 0;
-  wave_emit(scene, params, first, wave_padded(count), &wave);
+  wave_emit(scene, params, guide, first, wave_padded(count), &wave);
   uint alive = wave_compact(count, &wave);
   for (uint depth = 0; depth < params->max_depth && alive > 0; ++depth) {
     rays += alive;
@@ -224,6 +240,8 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, uint first, ui
     uint padded = wave_padded(alive);
     for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
     wave_scatter(scene, params, depth, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
+    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role != PHOTONS_PLAIN)
+      wave_guide(guide, params, depth, alive, &wave, counters);
     wave_store(alive, &wave, photons, params->photon_capacity, counters);
     alive = wave_compact(alive, &wave);
   }
@@ -231,9 +249,11 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, uint first, ui
 }
 
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
-// the host can enlarge it and trace the pass again. One item of a work-group traces the photons of all.
+// the host can enlarge it and trace the pass again. One item of a work-group traces the photons of all. What follows
+// `params` is asked for by guided photons alone.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
-                          Params params) {
+                          Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
+                          Grid cells) {
   uint first = get_global_id(0), count = WAVE_CAPACITY == 1u ? 1u : (uint)get_local_size(0);
   if (first >= params.photon_count) return;
   if (WAVE_CAPACITY > 1u) {
@@ -241,6 +261,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   }
   SCENE_INIT(params);
   count = min(count, params.photon_count - first);
-  uint rays = wave_paths(&scene, &params, params.first_photon + first, count, photons, counters);
+  Guide guide = {seeds, accepted, marks, cells};
+  uint rays = wave_paths(&scene, &params, &guide, params.first_photon + first, count, photons, counters);
   atomic_add(&counters->rays, rays);
 }

@@ -223,7 +223,9 @@ typedef struct {
                              //   the pass; several devices share them
   float indirect_radius;     // the radius within which indirect photons are gathered, over that of the others
   uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
-  uint unused[3];
+  uint photon_role;          // PHOTONS_*
+  uint photon_copies;        // of each seed
+  uint unused;
 } Params;
 CHECK_SIZE(Params, 240);
 
@@ -361,6 +363,12 @@ typedef struct {
 } Grid;
 CHECK_SIZE(Grid, 32);
 
+// What the photons of a launch are: see guided_photons.cl.
+#define PHOTONS_PLAIN 0u
+#define PHOTONS_SCOUTS 1u
+#define PHOTONS_COPIES 2u
+#define PHOTONS_SEEDS 3u
+
 // The kinds of photons that a map tells apart.
 #define FOCUSED_PHOTONS 0u   // straight from a light or by specular surfaces and rough lobes alone; all in the medium
 #define INDIRECT_PHOTONS 1u  // marked INDIRECT_PHOTON
@@ -382,12 +390,12 @@ CHECK_SIZE(PhotonGrids, 80);
 typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
   uint indirect;       // those of them that are marked INDIRECT_PHOTON
+  uint seeds;          // scouts that landed where the camera sees
   uint rays;           // traced, shadow rays included
   uint non_finite;     // samples that were NaN or Inf and were left out
   uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
   uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
   uint traversal_bound;  // rays whose walk through the tree was cut short
-  uint unused;
 } Counters;
 CHECK_SIZE(Counters, 32);
 

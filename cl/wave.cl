@@ -35,6 +35,7 @@ INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STE
 #define EVENT_STORED 2u      // `landed` holds its record
 #define EVENT_SATURATED 4u   // that had more flux than it holds
 #define EVENT_NON_FINITE 8u  // it had no finite record
+#define EVENT_LANDED 16u     // the record is not to be stored, since shadow rays bring that light
 
 // What a photon carries from event to event.
 typedef struct {
@@ -47,7 +48,7 @@ typedef struct {
 
 typedef struct {
   real origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], flux[3][WAVE_CAPACITY];
-  uint index[WAVE_CAPACITY];      // of the photon in its pass
+  uint index[WAVE_CAPACITY];      // of the photon's path in its pass
   uint mark[WAVE_CAPACITY];       // INDIRECT_PHOTON, or 0
   uint primitive[WAVE_CAPACITY];  // as in Hit
   real t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
@@ -56,6 +57,10 @@ typedef struct {
   uint normal[WAVE_CAPACITY], flux_rg[WAVE_CAPACITY], flux_b[WAVE_CAPACITY];
   uint history[(EFFECTS & OUTPUT_LAYERS) ? WAVE_CAPACITY : 1u];
   Interior interior[(EFFECTS & (EFFECT_ABSORPTION | EFFECT_MEDIUM)) ? WAVE_CAPACITY : 1u];
+  uint copy[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // as in RandomStream
+  uint fresh[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];
+  uint seed[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // its place in the list of seeds
+  uint useful[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // 1 where it has landed where the camera sees
 } Wave;
 
 INLINE Ray wave_ray(const Wave *wave, uint i) {
@@ -101,4 +106,9 @@ INLINE void wave_move(Wave *wave, uint from, uint to) {
   wave->mark[to] = wave->mark[from];
   if (HAS(OUTPUT_LAYERS)) wave->history[to] = wave->history[from];
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[to] = wave->interior[from];
+  if (!HAS(EFFECT_GUIDED_PHOTONS)) return;
+  wave->copy[to] = wave->copy[from];
+  wave->fresh[to] = wave->fresh[from];
+  wave->seed[to] = wave->seed[from];
+  wave->useful[to] = wave->useful[from];
 }

@@ -122,6 +122,8 @@ Effects find_effects(const Scene& scene) {
        by_material(scene, "cauchy", [](const MaterialSpec& material) { return material.dispersion > 0; })},
       {EFFECT_MOTION, "motion", "motion blur", motion_reason(scene)},
       {EFFECT_MEDIUM, "medium", "medium", fills(scene.medium) ? "/medium" : ""},
+      {EFFECT_GUIDED_PHOTONS, "guided_photons", "photons guided to what the camera sees",
+       scene.renderer.guided_photons ? "/renderer/guided_photons" : ""},
   };
 }
 

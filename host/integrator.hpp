@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "faults.hpp"
@@ -11,6 +12,12 @@
 #include "types.h"
 
 namespace causticl {
+
+/// What became of the scouts of guided photons in the last pass that had any: see cl/guided_photons.cl.
+struct SeedStatistics {
+  double share = 0;  // of the scouts, that landed where the camera sees
+  std::uint32_t copies = 0;
+};
 
 /// What one of several devices does of every pass: of n things those from first_of(n) up to end_of(n).
 struct Share {
@@ -48,6 +55,7 @@ class PassIntegrator {
   struct Totals {
     std::uint64_t photons_emitted = 0, photons_stored_last_pass = 0, rays = 0;
     Faults faults;
+    std::optional<SeedStatistics> seeds;
   };
   virtual Totals finish() = 0;
 

@@ -23,9 +23,10 @@ constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 const std::map<std::string, unsigned> effects_read{
     {"camera",
      geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS | OUTPUT_LAYERS},
-    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS | OUTPUT_LAYERS},
+    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS |
+                   EFFECT_GUIDED_PHOTONS | OUTPUT_LAYERS},
     {"grid", 0},
-    {"gather", EFFECT_MEDIUM | OUTPUT_LAYERS},
+    {"gather", EFFECT_MEDIUM | EFFECT_GUIDED_PHOTONS | OUTPUT_LAYERS},
     {"film", 0},
     {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS | OUTPUT_LAYERS},
 };

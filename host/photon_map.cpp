@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "error.hpp"
+#include "space_grid.hpp"
 
 namespace causticl {
 namespace {
@@ -12,16 +13,22 @@ namespace {
 constexpr std::size_t scan_segment = 256;           // SCAN_SEGMENT of cl/pass_grid.cl
 constexpr std::size_t photon_bytes_in_double = 40;  // CHECK_SIZE of cl/types.h
 
-std::size_t buckets_of(const Grid& grid) { return std::size_t{grid.nx} * grid.ny * grid.nz; }
-
 std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 1) / scan_segment; }
+
+/// Buckets of a table for so many photons: about two for each, since a larger one costs more to clear and sum
+/// than its collisions cost to skip.
+double affordable_buckets(std::uint32_t photons) {
+  return std::min(2.8 * std::max<std::uint32_t>(photons, 2048), std::pow(512.0, 3));
+}
 
 }  // namespace
 
-PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters)
+PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
+                     PhotonGuide& guide)
     : scene_(scene),
       device_(device),
       programs_(programs),
+      guide_(guide),
       photon_bytes_(programs.options().precision == Precision::float64 ? photon_bytes_in_double
                                                                        : sizeof(Photon)),
       counters_(counters) {
@@ -32,6 +39,32 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& program
 void PhotonMap::prepare() {
   trace_photons_ = programs_.kernel("photon", "trace_photons");
   first_argument_ = set_scene_arguments(trace_photons_, scene_);
+}
+
+/// Traces params.photon_count photons in the role that `params` tells.
+void PhotonMap::launch(const Params& params) {
+  trace_photons_.setArg(first_argument_ + 2, params);
+  device_.launch_pass(trace_photons_, params.photon_count);
+}
+
+/// Traces a pass's photons: plain ones, or scouts and the copies of those that became seeds.
+void PhotonMap::launch_all(Params params) {
+  launch(params);
+  if (params.photon_role == PHOTONS_PLAIN) return;
+  const uint seeds = device_.download<Counters>(counters_, 1)[0].seeds;
+  guide_.found(seeds, params.photon_count, params.pass);
+  if (seeds == 0) return;
+  params.photon_copies = guide_.copies(seeds);
+  params.first_photon = 0;
+  if (params.photon_copies > 0) {
+    guide_.clear_accepted(seeds);
+    params.photon_role = PHOTONS_COPIES;
+    params.photon_count = seeds * params.photon_copies;
+    launch(params);
+  }
+  params.photon_role = PHOTONS_SEEDS;
+  params.photon_count = seeds;
+  launch(params);
 }
 
 Counters PhotonMap::trace(Params params) {
@@ -47,8 +80,8 @@ Counters PhotonMap::trace(Params params) {
     set_scene_arguments(trace_photons_, scene_);
     trace_photons_.setArg(first_argument_, photons_);
     trace_photons_.setArg(first_argument_ + 1, counters_);
-    trace_photons_.setArg(first_argument_ + 2, params);
-    device_.launch_pass(trace_photons_, params.photon_count);
+    guide_.add_arguments(trace_photons_, first_argument_ + 3);
+    launch_all(params);
     const Counters counters = device_.download<Counters>(counters_, 1)[0];
     stored_ = std::min(counters.photons, capacity_);
     indirect_ = std::min(counters.indirect, stored_);
@@ -118,27 +151,6 @@ void PhotonMap::reserve_buckets(std::size_t buckets) {
   bucket_capacity_ = buckets;
 }
 
-/// Cubes of that size for so many photons, whose buckets begin at `first_bucket`.
-Grid PhotonMap::grid_of(double cell, std::uint32_t photons, std::size_t first_bucket) const {
-  Grid grid{};
-  // As many buckets along an axis as there are cubes across the scene, but in all no more than about two for
-  // each photon: a larger table costs more to clear and sum than its collisions cost to skip.
-  const double across = std::ceil(2 * scene_.extent / cell);
-  const double affordable = std::min(2.8 * std::max<std::uint32_t>(photons, 2048), std::pow(512.0, 3));
-  uint* const axes[] = {&grid.nx, &grid.ny, &grid.nz};
-  grid.nx = grid.ny = grid.nz = 1;
-  std::size_t buckets = 1;
-  for (int doublings = 0; *axes[doublings % 3] < across && 2.0 * static_cast<double>(buckets) <= affordable;
-       ++doublings) {
-    *axes[doublings % 3] *= 2;
-    buckets *= 2;
-  }
-  grid.origin = {static_cast<float>(scene_.center.x), static_cast<float>(scene_.center.y),
-                 static_cast<float>(scene_.center.z), static_cast<float>(1 / cell)};
-  grid.first_bucket = static_cast<uint>(first_bucket);
-  return grid;
-}
-
 void PhotonMap::sort(double radius, double indirect_radius) {
   const std::uint32_t focused = stored_ - indirect_;
   grids_ = {};
@@ -146,12 +158,13 @@ void PhotonMap::sort(double radius, double indirect_radius) {
   grids_.separate = indirect_radius != radius && indirect_ > 0;
   grids_.present[FOCUSED_PHOTONS] = grids_.separate ? focused > 0 : stored_ > 0;
   grids_.present[INDIRECT_PHOTONS] = grids_.separate;
-  grids_.grid[FOCUSED_PHOTONS] = grid_of(2 * radius, grids_.separate ? focused : stored_, 0);
+  grids_.grid[FOCUSED_PHOTONS] =
+      grid_of(scene_, 2 * radius, affordable_buckets(grids_.separate ? focused : stored_));
   std::size_t buckets = buckets_of(grids_.grid[FOCUSED_PHOTONS]);
   if (grids_.separate) {
     // A larger radius holds more photons, and smaller cubes fewer in vain: of cubes of two radii a fifth lies
     // within the radius, of one a third.
-    grids_.grid[INDIRECT_PHOTONS] = grid_of(indirect_radius, indirect_, buckets);
+    grids_.grid[INDIRECT_PHOTONS] = grid_of(scene_, indirect_radius, affordable_buckets(indirect_), buckets);
     buckets += buckets_of(grids_.grid[INDIRECT_PHOTONS]);
   }
   if (stored_ == 0) return;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "integrator.hpp"
+#include "photon_guide.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
 
@@ -11,12 +12,14 @@ namespace causticl {
 
 class PhotonMap {
  public:
-  PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters);
+  PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
+            PhotonGuide& guide);
 
   /// Waits until the kernel that traces photons is built.
   void prepare();
 
-  /// Only after prepare(). Traces params.photon_count photons of pass params.pass. Waits for the device,
+  /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are scouts
+  /// (params.photon_role) what follows from them. Waits for the device,
   /// since only it knows how many were stored; where the buffer was too small, it grows and the pass is
   /// traced again, to the same photons. Where the device has no room for that, the photons beyond are dropped
   /// and counted. Returns the counters as they were left.
@@ -42,6 +45,7 @@ class PhotonMap {
   const DeviceScene& scene_;
   Device& device_;
   Programs& programs_;
+  PhotonGuide& guide_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record as traced; a sorted one takes no more
@@ -53,7 +57,8 @@ class PhotonMap {
   PhotonGrids grids_{};
 
   std::uint32_t count_indirect(std::span<const std::byte> records) const;
-  Grid grid_of(double cell, std::uint32_t photons, std::size_t first_bucket) const;
+  void launch(const Params& params);
+  void launch_all(Params params);
   void reserve_buckets(std::size_t buckets);
   bool reserve_photons(std::uint64_t wanted);
 };

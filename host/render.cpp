@@ -172,6 +172,10 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     statistics.pass_programs = pass_statistics(plan, {}, effects);
     return black_picture(scene, options, statistics);
   }
+  if (devices.size() > 1 && scene.renderer.guided_photons && sppm)
+    throw UserError(
+        "/renderer/guided_photons: cannot be shared between devices, since each would mark what its own "
+        "pixels see; use one --device, or -D renderer.guided_photons=false");
   std::vector<std::unique_ptr<RenderDevice>> parts;
   for (Device* device : devices)
     parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels, options.camera_rays,
@@ -285,6 +289,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   const double loop_seconds = std::max(seconds_since(loop_start) + integrator->early_seconds(), 1e-9);
   statistics.rays = totals.rays;
   statistics.stored_photons = totals.photons_stored_last_pass;
+  statistics.seeds = totals.seeds;
   statistics.photons_per_second = static_cast<double>(totals.photons_emitted) / loop_seconds;
   statistics.rays_per_second = static_cast<double>(totals.rays) / loop_seconds;
   RenderResult result;

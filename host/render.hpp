@@ -13,6 +13,7 @@
 #include "faults.hpp"
 #include "first_hits.hpp"
 #include "image.hpp"
+#include "integrator.hpp"
 #include "kernels.hpp"
 #include "scene.hpp"
 #include "triangle_transforms.hpp"
@@ -92,6 +93,7 @@ struct Statistics {
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
   std::uint64_t stored_photons = 0;     // in the last pass
   double first_radius = 0;              // sppm
+  std::optional<SeedStatistics> seeds;  // where photons are guided
   bool first_radius_chosen = false;     // from the scene, not from the file
   std::uint64_t device_bytes = 0;       // largest amount allocated on the device
   std::uint64_t peak_memory_bytes = 0;  // of the process

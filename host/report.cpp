@@ -109,6 +109,11 @@ std::string statistics_table(const Statistics& s) {
     append(text, "  %-28s %llu (%s/s)\n", "photons", Number(s.photons),
            si_number(s.photons_per_second).c_str());
     append(text, "  %-28s %llu\n", "  stored in the last pass", Number(s.stored_photons));
+    if (s.seeds)
+      append(text, "  %-28s %.2g%% of the scouts land where the camera sees; %s\n", "  guided",
+             100 * s.seeds->share,
+             s.seeds->copies ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
+                             : "too many to copy: most passes are as without");
     append(text, "  %-28s %g (%s)\n", "first radius", s.first_radius,
            s.first_radius_chosen ? "chosen from the scene" : "of the scene file");
   }
@@ -173,6 +178,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"programs", passes},
                                    {"kernels", milliseconds},
                                    {"kernel_launches", launches}};
+  if (s.seeds) object["guided"] = {{"share", s.seeds->share}, {"copies", s.seeds->copies}};
   if (s.error) {
     object["error"] = s.error->error;
     object["error_noise"] = s.error->noise;

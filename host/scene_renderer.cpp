@@ -9,9 +9,9 @@ namespace {
 constexpr std::int64_t count_limit = 1 << 30;
 
 const std::vector<std::string> renderer_keys{
-    "type",           "sample",         "view_point_sample", "photon_sample", "rounds",    "radius",
-    "radius_decay",   "alpha",          "schedule",          "direct_light",  "light_pos", "light_r",
-    "light_radiance", "indirect_radius"};
+    "type",           "sample",          "view_point_sample", "photon_sample", "rounds",    "radius",
+    "radius_decay",   "alpha",           "schedule",          "direct_light",  "light_pos", "light_r",
+    "light_radiance", "indirect_radius", "guided_photons"};
 
 }  // namespace
 
@@ -29,6 +29,7 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   if (const auto radius = json.find("radius")) renderer.radius = radius->number(positive_number);
   if (const auto wider = json.find("indirect_radius"))
     renderer.indirect_radius = wider->number({1, 100, "a number from 1 to 100"});
+  renderer.guided_photons = json.boolean("guided_photons", renderer.guided_photons);
   renderer.alpha = json.number("alpha", renderer.alpha, open_unit_number);
   renderer.radius_decay =
       json.number("radius_decay", renderer.radius_decay, {1e-6, 1, "a number from 1e-6 to 1"});

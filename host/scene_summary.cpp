@@ -143,6 +143,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
     else
       text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
            << r.alpha;
+    if (r.guided_photons) text << ", guided photons";
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }
   text << "; at most " << count(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";

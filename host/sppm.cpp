@@ -30,7 +30,9 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
-      photon_map_(device_scene, device, programs, counters_),
+      guide_(device_scene, device, programs,
+             scene.renderer.guided_photons ? static_cast<std::uint32_t>(scene.renderer.photons) : 0),
+      photon_map_(device_scene, device, programs, counters_, guide_),
       with_photons_(with_photons && params_.emitter_count > 0),
       visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
                             ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
@@ -60,6 +62,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   trace_camera_.setArg(first_argument_ + 1, counters_);
 
   first_radius_ = first_radius ? *first_radius : choose_first_radius(programs, device_scene.extent);
+  guide_.set_radius(first_radius_);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = first_radius_ * first_radius_;
   cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
@@ -74,10 +77,13 @@ void Sppm::start_pass(std::uint32_t pass) {
   begin_pass(params_, pass);
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
-  const auto photons = static_cast<std::size_t>(spec_.photons);
+  const auto emission = guide_.emission(pass);
+  const auto photons = static_cast<std::size_t>(spec_.guided_photons ? emission.photons : spec_.photons);
+  params_.photon_role = emission.role;
   params_.first_photon = static_cast<uint>(share_.first_of(photons));
   params_.photon_count = static_cast<uint>(share_.count_of(photons));
-  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / spec_.photons);
+  params_.photon_flux =
+      static_cast<float>(std::numbers::pi * device_scene_.emitted_power / static_cast<double>(photons));
   if (with_photons_) totals_.update(photon_map_.trace(params_));
   started_pass_ = pass;
 }
@@ -163,6 +169,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
     set_arguments(gather_photons_, visible_points_, pixels_, film_.buffer(), photon_map_.starts(),
                   photon_map_.sorted(), counters_, photon_map_.grids(), params_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
+    guide_.mark(visible_points_, std::size_t{params_.pixel_count} * params_.visible_points, pass);
   }
   advance_schedule(pass);
 }
@@ -171,7 +178,7 @@ PassIntegrator::Totals Sppm::finish() {
   totals_.update(device_.download<Counters>(counters_, 1)[0]);
   Faults faults = totals_.faults;
   faults.dropped = photon_map_.dropped();
-  return {emitted_, photon_map_.stored(), totals_.rays, faults};
+  return {emitted_, photon_map_.stored(), totals_.rays, faults, guide_.seeds()};
 }
 
 std::vector<Channel> Sppm::channels() {

@@ -40,6 +40,7 @@ class Sppm : public PassIntegrator {
   Motion motion_;
   Params params_;
   cl::Buffer counters_;
+  PhotonGuide guide_;
   PhotonMap photon_map_;
   bool with_photons_;
   std::optional<std::uint32_t> started_pass_;  // whose photons are in the map

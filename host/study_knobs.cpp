@@ -115,6 +115,14 @@ const std::vector<Knob>& study_knobs() {
          return overrides("renderer.indirect_radius", short_number(indirect_radius(c.scene.renderer)),
                           {"1", "2", "4"});
        }},
+      {"guided_photons", "Guided photons", "",
+       "Photons that land where the camera sees are copied with slight changes: more of them where few come "
+       "so far, for a time in which more photons could have been traced.",
+       true, [](Context c) { return std::string(c.scene.renderer.guided_photons ? "true" : "false"); },
+       [](Context c) {
+         return overrides("renderer.guided_photons", c.scene.renderer.guided_photons ? "true" : "false",
+                          {"false", "true"});
+       }},
       {"direct_light", "Direct light", "",
        "Light that comes straight from a lamp can be found by shadow rays, or by photons like all other "
        "light.",

@@ -91,6 +91,8 @@ inline std::vector<EffectScene> effect_scenes() {
        "motion of /objects/2"},
       {"medium", R"({"medium": {"scattering": [0.1, 0.1, 0.1]}, )" + plain.substr(1),
        R"({"medium": {"scattering": [0, 0, 0]}, )" + plain.substr(1), "/medium"},
+      {"guided_photons", effect_scene("", "", R"(, "guided_photons": true)"), effect_scene(""),
+       "/renderer/guided_photons"},
   };
 }
 
