@@ -45,10 +45,10 @@ struct ErrorRates {
 };
 
 /// Those that theory expects of SPPM (Knaus & Zwicker 2011, section 4): the radius takes from the photons
-/// what more passes bring, R^2 ~ passes^(alpha - 1) and noise ~ passes^-(alpha / 2). The bias goes with R^2
-/// where illumination is smooth, but with R along edges, where most of it lies: see BIAS_OF_BLUR of
-/// cl/pass_film.cl.
-constexpr ErrorRates sppm_rates(double alpha) { return {alpha / 2, (1 - alpha) / 2}; }
+/// what more passes bring, R^2 ~ passes^(alpha - 1), with which bias goes, and their noise ~
+/// passes^-(alpha / 2). That of camera paths and shadow rays ~ passes^-(1 / 2): between the two lies the
+/// picture's.
+constexpr ErrorRates sppm_rates(double alpha) { return {(alpha + 1) / 4, 1 - alpha}; }
 constexpr ErrorRates path_tracing_rates{};
 
 /// How the error of a picture has gone down so far, and where that leads.
@@ -63,8 +63,8 @@ class ErrorTrend {
   const std::optional<PictureError>& last() const { return last_; }
 
   /// The rates of the noise and of the bias as measured over the last two octaves of passes, from the fourth
-  /// pass on: of fewer the spread tells too little. The expected ones count as well. Bias goes down as
-  /// expected at least: what is slower is noise that passes for it.
+  /// pass on: of fewer the spread tells too little. The expected ones count as well. Bias goes down hardly
+  /// slower than expected: what does is noise that passes for it.
   ErrorRates rates() const;
 
   /// Passes after which the error will be `wanted`, counted from the first, if every pixel's noise and bias
