@@ -121,6 +121,18 @@ INLINE bool bsdf_is_rough(const Bsdf *bsdf) {
 // Whether the path leaves in the one direction that goes with its arrival.
 INLINE bool bsdf_is_specular(const Bsdf *bsdf) { return bsdf->kind != MATERIAL_DIFFUSE && !bsdf_is_rough(bsdf); }
 
+// Photons are kept whatever the texel that they land on reflects: the points around it may reflect more. Only where all is
+// black, as on most lamps, are they of no use.
+INLINE bool is_black(const Bsdf *bsdf, global const Material *material) {
+  return material->color_texture == 0 && !(max_component(bsdf->color) > 0);
+}
+
+// Whether photons that land there are stored.
+INLINE bool keeps_photons(const Bsdf *bsdf, global const Material *material) {
+  bool plastic = HAS(EFFECT_PLASTIC) && bsdf->kind == MATERIAL_PLASTIC;
+  return (plastic || bsdf->kind == MATERIAL_DIFFUSE) && !is_black(bsdf, material);
+}
+
 // What the reflection of a conductor, mirror or coat is tinted by where `cosine` is that of incidence.
 INLINE real3 specular_tint(const Bsdf *bsdf, real cosine) {
   if (HAS(EFFECT_CONDUCTOR) && bsdf->kind == MATERIAL_CONDUCTOR)

@@ -57,7 +57,7 @@ OUTLINE void wave_guide(const Guide *guide, const Params *params, uint depth, ui
     bool marked = !(wave->normal[i] & IN_MEDIUM) &&
                   is_marked(guide->marks, guide->cells, normal_unpack(wave->normal[i]),
                             (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]));
-    if (marked == scouts) wave->events[i] &= ~EVENT_STORED;
+    if (marked == scouts) wave->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
     if (!marked || wave->useful[i]) continue;
     wave->useful[i] = scouts ? 2 : 1;  // 2: not in the list yet
     seeds += scouts ? 1 : 0;

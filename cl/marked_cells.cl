@@ -29,7 +29,8 @@ INLINE void mark_cells(volatile global uint *marks, Grid cells, float3 normal, r
   }
 }
 
-// Whether a photon that landed there on a surface of that normal may be found by a visible point.
+// Whether visible points have been seen around a photon that landed there on a surface of that normal. An estimate is all
+// that is asked for: within their radius, points may find photons of cells that are not marked.
 INLINE bool is_marked(global const uint *marks, Grid cells, float3 normal, real3 position) {
   uint bucket = grid_bucket(cells, position);
   return (marks[bucket / 4] >> (8 * (bucket % 4)) & facing_bit(normal)) != 0;

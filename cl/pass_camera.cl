@@ -1,6 +1,8 @@
 // Camera paths of SPPM: from the lens by mirrors, glass and rough lobes to the first diffuse surface, or to where the
 // medium interacts with them first.
 #include "camera.cl"
+#include "coverage.cl"
+#include "coverage_mean.cl"
 #include "direct.cl"
 #include "grid.cl"
 #include "layers.cl"
@@ -30,7 +32,7 @@ INLINE Ray path_ray(const Params *params, uint index) {
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
 // meets, in either case. Returns the number of rays traced.
 OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
-                         volatile global Counters *counters) {
+                         volatile global Counters *counters, global const SppmPixel *pixels) {
   uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
   RandomStream stream = path_stream(params, pixel, sample);
   // Where the visible point will be.
@@ -104,9 +106,14 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
-      bool front = dot(surface.geometric_normal, ray.direction) < 0;
-      point.normal =
-          normal_pack(front ? surface.geometric_normal : -surface.geometric_normal) | receiver_mark(history);
+      real3 side = dot(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
+      point.normal = normal_pack(side) | receiver_mark(history);
+      if (params->coverage && coverage_wanted(pixels[pixel].coverage, pixel, params->pass,
+                                              sample == params->pass % params->visible_points)) {
+        real radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : pixels[pixel].radius2_hi);
+        point.normal |= coverage_probe(scene, surface.position, side, radius * radius,
+                                       random_at(stream, depth, DIM_COVERAGE), &rays, counters);
+      }
       history = history_after(history, false);
       if (shadow_rays)
         radiance_add(&radiance, history,
@@ -145,12 +152,12 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 }
 
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
-                         Params params) {
+                         Params params, global const SppmPixel *pixels) {
   local uint group_rays[LARGEST_WORK_GROUP];
   uint index = get_global_id(0), rays = 0;
   if (index < params.pixel_count * params.visible_points) {
     SCENE_INIT(params);
-    rays = camera_path(&scene, &params, index, visible_points, counters);
+    rays = camera_path(&scene, &params, index, visible_points, counters, pixels);
   }
   group_add(rays, group_rays, &counters->rays);
 }

@@ -1,4 +1,5 @@
 // The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
+#include "coverage_mean.cl"
 #include "gather.cl"
 #include "marked_cells.cl"
 #include "sppm.cl"
@@ -68,6 +69,8 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   if (i >= params.pixel_count) return;
   uint index = params.first_pixel + i;
   SppmPixel pixel = pixels[index];
+  for (uint s = 0; s < params.visible_points; ++s)
+    pixel.coverage = coverage_add(pixel.coverage, visible_points[i * params.visible_points + s].normal, params.pass);
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   Radiance radiance = radiance_none();
@@ -89,18 +92,22 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
       Gathered sum;
       real wider = kind_radius2(&params, kind);
-      real3 share = weight / wider;
+      real3 share = weight / wider, share_near = share;
       if (in_medium) {
         real g = params.extinction.w;
         sum = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i * params.visible_points + s, &params,
                                      radius2);
         share *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
+        share_near = share;
       } else {
         sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), normal_unpack(point.normal),
                      radius2 * wider);
+        float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
+        share /= coverage_of(pixel.coverage, of_probes);
+        share_near /= coverage_of(pixel.coverage, of_probes / 2);
       }
       reflected += share * (real3)(sum.red, sum.green, sum.blue);
-      reflected_near += share * (real3)(sum.near_red, sum.near_green, sum.near_blue);
+      reflected_near += share_near * (real3)(sum.near_red, sum.near_green, sum.near_blue);
       found = add_sat(found, sum.count);
       if (HAS(OUTPUT_LAYERS) && sum.count > 0)
         layers_gathered(&radiance, &sum, share * density, point.normal & BEYOND_RECEIVER);
@@ -113,8 +120,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     for (uint k = 0; k < LAYER_COUNT; ++k) radiance.layer[k] /= params.visible_points;
   film_add_radiance(film, index, params.width * params.height, &radiance, luminance(blur.x, blur.y, blur.z),
                     params.pass, counters);
-  if (params.radius2 > 0) return;
-  pixels[index] = sppm_update(pixel, found, params.alpha);
+  pixels[index] = params.radius2 > 0 ? pixel : sppm_update(pixel, found, params.alpha);
 }
 
 // Marks the cells around visible points on surfaces, for guided photons: see mark_cells.
@@ -131,6 +137,6 @@ kernel void mark_visible_points(global const VisiblePoint *visible_points, volat
 kernel void start_pixels(global SppmPixel *pixels, uint count, float radius2) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  SppmPixel pixel = {radius2, 0, 0, 0};
+  SppmPixel pixel = {radius2, 0, 0, 0, 0};
   pixels[i] = pixel;
 }

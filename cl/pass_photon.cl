@@ -79,14 +79,12 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
     flux *= interior_transmittance(photon->interior, hit.t);
   }
 
-  // Photons are stored whatever the texel that they land on reflects: the points around it may reflect more. Only where
-  // all is black, as on most lamps, are they of no use.
   bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
-  bool black = material->color_texture == 0 && !(max_component(bsdf.color) > 0);
+  bool black = is_black(&bsdf, material);
   real arrival = shading_normal_arrival(&surface, direction);
   real3 arrived = scaled3(arrival, flux);
   // With shadow rays the light that arrives straight from an emitter is counted there.
-  bool counted = shadow_rays && depth == 0, landed_here = (diffuse || plastic) && !black;
+  bool counted = shadow_rays && depth == 0, landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
     real3 landed = arrived;

@@ -225,17 +225,19 @@ typedef struct {
   uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
   uint photon_role;          // PHOTONS_*
   uint photon_copies;        // of each seed
-  uint unused;
+  uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
 } Params;
 CHECK_SIZE(Params, 240);
 
 // What SPPM keeps of a pixel between passes besides the film: its squared radius as an unevaluated sum
-// hi + lo, and the number of all photons found so far, as two halves. N of the paper is alpha times that.
+// hi + lo, the number of all photons found so far, as two halves, and how much of its kernel lies on surfaces. N of the
+// paper is alpha times the photons.
 typedef struct {
   float radius2_hi, radius2_lo;
   uint photons_low, photons_high;
+  uint coverage;  // see coverage_mean.cl
 } SppmPixel;
-CHECK_SIZE(SppmPixel, 16);
+CHECK_SIZE(SppmPixel, 20);
 
 // A pixel's sum of radiance estimates, one per pass, each channel as an unevaluated sum hi + lo, and what tells how
 // far their mean may be off.
@@ -283,6 +285,12 @@ CHECK_SIZE(PixelError, 20);
 // a larger radius (Jensen, "Global Illumination using Photon Maps", 1996, keeps two maps for the same reason).
 #define INDIRECT_PHOTON 0x40000000u
 
+// What the probe of coverage.cl tells, in VisiblePoint.normal: that there is one, whether it is of the disc of half
+// the radius, and how much surface there is over its place, by area: 0 to 2, drawn so that its expectation is exact.
+#define COVERAGE_PROBED 0x08000000u
+#define COVERAGE_OF_HALF 0x04000000u
+#define COVERAGE_SHIFT 24u
+
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium
 // `position` is where a segment of the path begins, and `weight` what is carried there over the probability of an event
@@ -290,7 +298,7 @@ CHECK_SIZE(PixelError, 20);
 // its beginning, it is radiance at the camera.
 typedef struct {
   real position[3];
-  uint normal;         // normal_pack, facing the camera path; in the medium, nothing but marks
+  uint normal;         // normal_pack, facing the camera path, and COVERAGE_*; in the medium, nothing but marks
   real weight[3];
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;

@@ -60,7 +60,7 @@ typedef struct {
   uint copy[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // as in RandomStream
   uint fresh[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];
   uint seed[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // its place in the list of seeds
-  uint useful[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // 1 where it has landed where the camera sees
+  uint useful[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // not 0 where it has landed where the camera sees
 } Wave;
 
 INLINE Ray wave_ray(const Wave *wave, uint i) {

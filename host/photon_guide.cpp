@@ -10,8 +10,8 @@ namespace {
 constexpr double scout_share = 0.75;  // of a pass's photons
 constexpr double most_buckets = 1 << 22;
 constexpr std::uint32_t most_copies = 255;
-// Where more of the scouts than this land where the camera sees, the next passes do without, up to twice as
-// many.
+// Where more of the scouts than this land where the camera sees, photons are as without until twice as many
+// passes are done.
 constexpr double worth_guiding = 1.0 / 16;
 
 std::size_t mark_bytes(const Grid& cells) { return (buckets_of(cells) + 3) / 4 * sizeof(cl_uint); }
@@ -39,8 +39,9 @@ std::uint32_t PhotonGuide::copies(std::uint32_t seeds) const {
 }
 
 void PhotonGuide::found(std::uint32_t seeds, std::uint32_t scouts, std::uint32_t pass) {
-  seeds_found_ = {static_cast<double>(seeds) / scouts, copies(seeds)};
-  if (seeds > worth_guiding * scouts) next_guided_ = 2 * (pass + 1);
+  const bool worth = seeds <= worth_guiding * scouts;
+  seeds_found_ = {static_cast<double>(seeds) / scouts, worth && seeds > 0 ? copies(seeds) : 0};
+  if (!worth) next_guided_ = 2 * (pass + 1);
 }
 
 void PhotonGuide::add_arguments(cl::Kernel& trace_photons, cl_uint first) const {

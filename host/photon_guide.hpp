@@ -36,7 +36,7 @@ class PhotonGuide {
   /// What trace_photons takes from argument `first` on.
   void add_arguments(cl::Kernel& trace_photons, cl_uint first) const;
 
-  /// Photons will be gathered within `radius`: cells are as large.
+  /// The first radius within which photons are gathered: cells are as large.
   void set_radius(double radius);
   /// Marks cells around `count` visible points of pass `pass`, on which later passes count.
   void mark(const cl::Buffer& visible_points, std::size_t count, std::uint32_t pass);

@@ -12,6 +12,7 @@ namespace {
 std::size_t scalar_size(const std::string& type) {
   static const std::map<std::string, std::size_t> sizes{{"Params", sizeof(Params)},
                                                         {"PhotonGrids", sizeof(PhotonGrids)},
+                                                        {"Grid", sizeof(Grid)},
                                                         {"uint", 4},
                                                         {"int", 4},
                                                         {"float", 4}};

@@ -112,8 +112,9 @@ std::string statistics_table(const Statistics& s) {
     if (s.seeds)
       append(text, "  %-28s %.2g%% of the scouts land where the camera sees; %s\n", "  guided",
              100 * s.seeds->share,
-             s.seeds->copies ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
-                             : "too many to copy: most passes are as without");
+             s.seeds->copies      ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
+             : s.seeds->share > 0 ? "too many to copy: most passes are as without"
+                                  : "nothing to copy");
     append(text, "  %-28s %g (%s)\n", "first radius", s.first_radius,
            s.first_radius_chosen ? "chosen from the scene" : "of the scene file");
   }

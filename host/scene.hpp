@@ -100,6 +100,7 @@ struct RendererSpec {
   std::optional<double> radius;   // first search radius; chosen from the scene where absent
   double alpha = 0.7;
   std::optional<double> indirect_radius;  // see indirect_radius()
+  bool boundary_correction = true;        // sppm: kernels that reach beyond edges are made up for
   bool guided_photons = false;            // sppm: those that land where the camera sees are copied
   double radius_decay = 0.95;             // Schedule::geometric
   Schedule schedule = Schedule::pixel;

@@ -143,6 +143,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
     else
       text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
            << r.alpha;
+    if (!r.boundary_correction) text << ", no boundary correction";
     if (r.guided_photons) text << ", guided photons";
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }

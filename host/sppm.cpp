@@ -31,7 +31,9 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
       guide_(device_scene, device, programs,
-             scene.renderer.guided_photons ? static_cast<std::uint32_t>(scene.renderer.photons) : 0),
+             scene.renderer.guided_photons && with_photons
+                 ? static_cast<std::uint32_t>(scene.renderer.photons)
+                 : 0),
       photon_map_(device_scene, device, programs, counters_, guide_),
       with_photons_(with_photons && params_.emitter_count > 0),
       visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
@@ -41,6 +43,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
+  params_.coverage = spec_.boundary_correction && with_photons_;
   params_.alpha = static_cast<float>(spec_.alpha);
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
@@ -60,6 +63,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   first_argument_ = set_scene_arguments(trace_camera_, device_scene);
   trace_camera_.setArg(first_argument_, visible_points_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
+  trace_camera_.setArg(first_argument_ + 3, pixels_);
 
   first_radius_ = first_radius ? *first_radius : choose_first_radius(programs, device_scene.extent);
   guide_.set_radius(first_radius_);
@@ -102,6 +106,7 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   constexpr double wanted = 12;
   constexpr uint longest_side = 64;
   Params params = params_;
+  params.coverage = 0;  // pixels have no radius yet
   params.segment = static_cast<float>(segment_share * extent);
   const uint longer = std::max(params.width, params.height);
   params.width = std::max(1u, std::min(longest_side, longer) * params.width / longer);

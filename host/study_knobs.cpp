@@ -115,9 +115,17 @@ const std::vector<Knob>& study_knobs() {
          return overrides("renderer.indirect_radius", short_number(indirect_radius(c.scene.renderer)),
                           {"1", "2", "4"});
        }},
+      {"boundary_correction", "Boundary correction", "",
+       "Edges and corners cut off a part of what photons are counted in: it is either measured by one more "
+       "ray, or left dark.",
+       true, [](Context c) { return std::string(c.scene.renderer.boundary_correction ? "true" : "false"); },
+       [](Context c) {
+         return overrides("renderer.boundary_correction",
+                          c.scene.renderer.boundary_correction ? "true" : "false", {"true", "false"});
+       }},
       {"guided_photons", "Guided photons", "",
        "Photons that land where the camera sees are copied with slight changes: more of them where few come "
-       "so far, for a time in which more photons could have been traced.",
+       "so far, in place of some that could have been traced anew.",
        true, [](Context c) { return std::string(c.scene.renderer.guided_photons ? "true" : "false"); },
        [](Context c) {
          return overrides("renderer.guided_photons", c.scene.renderer.guided_photons ? "true" : "false",

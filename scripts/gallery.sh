@@ -17,6 +17,7 @@ for scene in "${scenes[@]}"; do
   [[ "$scene" == */effects/* ]] && size=400x250
   [ "$name" = rough_metals ] && size=640x400
   case "$name" in coloured_glass | prism | moving_balls | fog) size=480x300 passes=96 ;; esac
+  [ "$name" = next_room ] && size=400x300 passes=96
   [ "$name" = glass_caustic ] && size=800x600 passes=96
   "$root/build/causticl" render "$scene" --size $size --passes $passes --quiet -o "$root/scenes/gallery/$name.png"
   echo "scenes/gallery/$name.png"

@@ -177,6 +177,7 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   params.pixel_count = pixels;
   params.visible_points = samples;
   params.photon_flux = 0.125f;
+  params.indirect_radius = 1;
   params.radius2 = 0.0144f;
   auto in = test_device().upload(launch, "visible points");
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");

@@ -135,7 +135,7 @@ TEST_CASE("one update is right for any state, and no photon changes no bit") {
 TEST_CASE("the number of photons carries past 2^32, and the smallest radii stay finite") {
   std::vector<SppmPixel> before;
   for (const uint low : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xfffffff0u, 0xffffffffu})
-    for (const float radius2 : {FLT_MIN, 1.0f, FLT_MAX}) before.push_back({radius2, 0, low, 3});
+    for (const float radius2 : {FLT_MIN, 1.0f, FLT_MAX}) before.push_back({radius2, 0, low, 3, 0});
   for (const uint found : {1u, 15u, 16u, 1u << 31, 0xffffffffu})
     for (const float alpha : {FLT_MIN, 1e-9f, 0.7f, 0.99999994f}) {
       const auto after = update_once(before, std::vector<uint>(before.size(), found), alpha);

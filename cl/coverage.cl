@@ -1,0 +1,50 @@
+// How much of a kernel lies on surfaces. Photons are counted in a ball, and their number is divided by the area of a disc
+// of its radius: beyond an edge, in a corner and beside a slit that disc holds no surface, so that the estimate is too dark
+// there ("boundary bias"; Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001, section 7.4). So visible points
+// probe a place of their disc, and a pixel divides by the mean of what its last hundred probes found. That mean is common
+// to many passes: what it is off by is not in their spread, and fades with 1 / passes, as later probes come in.
+#include "grid.cl"
+#include "scene.cl"
+#include "warp.cl"
+
+// A quarter of the probes is of the disc of half the radius, which only the error estimate asks for.
+#define COVERAGE_SHARE_OF_HALF 0.25f
+
+// Surfaces that keep no photons, as glass, are passed by, up to this many.
+#define COVERAGE_MOST_HITS 4u
+
+// The probe of a visible point at `position` on a surface whose normal `n` is on its side, for a ball of that radius: what
+// lies first of surfaces that keep photons, along the chord that is the ball's normal at the place. Surface that leans away
+// by as much as photons must not does not count (GATHER_NORMAL_COSINE).
+OUTLINE uint coverage_probe(const Scene *scene, real3 position, real3 n, real radius2, real4 random, uint *rays,
+                            volatile global Counters *counters) {
+  uint probe = COVERAGE_PROBED;
+  if (random.w < COVERAGE_SHARE_OF_HALF) {
+    radius2 /= 4;
+    probe |= COVERAGE_OF_HALF;
+  }
+  real3 tangent, bitangent;
+  orthonormal_basis(n, &tangent, &bitangent);
+  real2 place = sqrt(radius2) * disc_uniform(random.xy);
+  real half_chord = sqrt(fmax(radius2 - dot(place, place), (real)0)), left = 2 * half_chord;
+  Ray ray = {position + place.x * tangent + place.y * bitangent + half_chord * n, -n};
+  for (uint i = 0; i < COVERAGE_MOST_HITS; ++i) {
+    Hit hit = hit_none(left);
+    ++*rays;
+    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    count_faults(hit.faults, counters);
+    if (!met) return probe;
+    Surface surface;
+    geometry_surface(&scene->geometry, ray, hit, &surface);
+    global const Material *material = scene->materials + surface.material;
+    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+    if (keeps_photons(&bsdf, material)) {
+      real cosine = fabs(dot(surface.geometric_normal, n));
+      if (!(cosine > GATHER_NORMAL_COSINE)) return probe;
+      return probe | min((uint)(1 / cosine + random.z), 2u) << COVERAGE_SHIFT;
+    }
+    left -= hit.t;
+    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, ray.direction);
+  }
+  return probe;
+}
