@@ -10,7 +10,7 @@
 //   seeds  are then traced again, with the share of the copies that were not accepted.
 // Since a seed is itself drawn from what the step leaves as it is, every accepted copy is too: there is no start to wait
 // for, no constant to estimate, and passes are independent, so that their spread tells the error. The marks decide how
-// noisy the picture is, and nothing else.
+// noisy the picture is, and nothing else. Radii shrink as if copies were photons like others: sooner than by seeds alone.
 #include "marked_cells.cl"
 #include "wave.cl"
 #include "work_group.cl"

@@ -13,7 +13,7 @@
 #define NEIGHBOURS_SHARE 0.02f
 
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
-// the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of surfaces,
+// the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of shadows,
 // the band that is wrong is as wide as the radius, and this is 2. Most of what is wrong lies along edges.
 #define BIAS_OF_BLUR 2.0f
 
