@@ -1,4 +1,4 @@
-// What should not happen in a kernel is counted there, and the host reports it: see Counters in types.h.
+// What should not happen in a kernel is counted there, and the host reports it: see Counters in pass_records.h.
 #include "prelude.cl"
 #include "types.h"
 

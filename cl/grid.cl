@@ -1,4 +1,4 @@
-// The photon grid: which bucket a point belongs to. See Grid in types.h.
+// The photon grid: which bucket a point belongs to. See Grid in photon_records.h.
 #include "prelude.cl"
 #include "types.h"
 

@@ -1,4 +1,4 @@
-// What lies behind the visible points in their buffer: see VisiblePoint in types.h.
+// What lies behind the visible points in their buffer: see VisiblePoint in photon_records.h.
 #include "effects.h"
 #include "types.h"
 

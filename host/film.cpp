@@ -54,7 +54,7 @@ Picture Film::picture(std::uint64_t passes) {
 
 std::vector<Channel> layer_channels(std::size_t pixels) {
   std::vector<Channel> channels;
-  for (const char* layer : {"direct", "caustic", "indirect"})  // LAYER_* of cl/types.h
+  for (const char* layer : {"direct", "caustic", "indirect"})  // LAYER_* of cl/pixel_records.h
     for (const char* color : {".R", ".G", ".B"})
       channels.push_back({std::string(layer) + color, std::vector<float>(pixels)});
   return channels;

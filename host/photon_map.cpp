@@ -11,7 +11,7 @@ namespace causticl {
 namespace {
 
 constexpr std::size_t scan_segment = 256;           // SCAN_SEGMENT of cl/pass_grid.cl
-constexpr std::size_t photon_bytes_in_double = 40;  // CHECK_SIZE of cl/types.h
+constexpr std::size_t photon_bytes_in_double = 40;  // CHECK_SIZE of cl/photon_records.h
 
 std::size_t segments_of(std::size_t buckets) { return (buckets + scan_segment - 1) / scan_segment; }
 

@@ -1,4 +1,4 @@
-// Cutting space into cubes, whose buckets hold what lies in them: see Grid of cl/types.h.
+// Cutting space into cubes, whose buckets hold what lies in them: see Grid of cl/photon_records.h.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,65 @@
+// What the host tells the kernels of a pass, and what these count. Part of types.h.
+#ifndef CAUSTICL_PASS_RECORDS_H
+#define CAUSTICL_PASS_RECORDS_H
+
+// What the photons of a launch are: see guided_photons.cl.
+#define PHOTONS_PLAIN 0u
+#define PHOTONS_SCOUTS 1u
+#define PHOTONS_COPIES 2u
+#define PHOTONS_SEEDS 3u
+
+// Boxes of the photon grid along a camera ray's segment in the medium, at most.
+#define MOST_SEGMENT_STEPS 1024u
+
+// The points of every emitting surface are drawn with the same density per area and unit of radiance:
+// largest channel of radiance * emitter_density (times two where both sides emit).
+typedef struct {
+  Camera camera;
+  uint width, height;        // pixels of the picture
+  uint first_pixel;          // the chunk that this launch works on: pixels [first_pixel, first_pixel +
+  uint pixel_count;          //   pixel_count) in row order from the top left
+  uint seed, pass;
+  uint visible_points;       // per pixel per pass; a square number is stratified
+  uint max_depth;            // longest path in scattering surface hits
+  uint plane_count;          // infinite planes, the first of the shapes
+  uint emitter_count;
+  float emitter_density;     // pi / power of the largest channels of all emitters; 0 without emitters
+  float photon_flux;         // flux of the largest channel of one emitted photon
+  uint photon_count;         // emitted by this launch
+  uint photon_capacity;      // stored at most
+  float alpha;               // share of the new photons that the radius update keeps
+  float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
+  float inverse_wavelength2[3];  // 1 / wavelength^2 in um^-2 that each channel stands for in this pass
+  float segment;             // length of the pieces of camera rays in the medium around which photons are gathered:
+                             // at most MOST_SEGMENT_STEPS times two cubes of the grid
+  float4 extinction;         // of the medium, absorption + scattering per unit length; w: Henyey & Greenstein's g
+  float4 scattering;         // of the medium, per unit length
+  uint shadow_rays;          // sppm: 1 where direct light comes by shadow rays, 0 where photons carry it
+  uint delta_lights;         // how many of the emitters are point, spot and directional lights
+  uint first_photon;         // of those that this launch traces: photons [first_photon, first_photon + photon_count) of
+                             //   the pass; several devices share them
+  float indirect_radius;     // the radius within which indirect photons are gathered, over that of the others
+  uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
+  uint photon_role;          // PHOTONS_*
+  uint photon_copies;        // of each seed
+  uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
+} Params;
+CHECK_SIZE(Params, 240);
+
+// Items of a work-group, at most: kernels keep a number for each in local memory.
+#define LARGEST_WORK_GROUP 256u
+
+// Counts that kernels add to; each wraps at 2^32 and is read as differences.
+typedef struct {
+  uint photons;        // stored, or wanted where that is above Params.photon_capacity
+  uint indirect;       // those of them that are marked INDIRECT_PHOTON
+  uint seeds;          // scouts that landed where the camera sees
+  uint rays;           // traced, shadow rays included
+  uint non_finite;     // samples that were NaN or Inf and were left out
+  uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
+  uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
+  uint traversal_bound;  // rays whose walk through the tree was cut short
+} Counters;
+CHECK_SIZE(Counters, 32);
+
+#endif
