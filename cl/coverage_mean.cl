@@ -8,8 +8,10 @@
 #define COVERAGE_PROBES 126u
 #define COVERAGE_COUNT_MASK 127u
 
+// A pixel whose first so many probes found full discs is probed once in so many passes: an odd number, so that it is the turn
+// of each of its strata.
 #define COVERAGE_FIRST_PROBES 6u
-#define COVERAGE_RARELY 7u  // passes; odd, so that it is the turn of each of a pixel's strata
+#define COVERAGE_RARELY 7u
 
 // Less is taken for this: a mean of few probes that found something is too noisy to divide by.
 #define COVERAGE_LEAST 0.125f

@@ -139,7 +139,7 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
       wave->useful[i] = 0;
     }
     wave->index[i] = start.path;
-    wave->flux[0][i] = start.share;
+    wave->flux[0][i] = start.share;  // until the photon has a flux of its own
     wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
   }
 #if VECTORISED(LOOPED_EMISSION)

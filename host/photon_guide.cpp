@@ -18,23 +18,24 @@ std::size_t mark_bytes(const Grid& cells) { return (buckets_of(cells) + 3) / 4 *
 
 }  // namespace
 
-PhotonGuide::PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons)
-    : scene_(scene), device_(device), programs_(programs), photons_(photons) {
-  const std::size_t scouts = emission(1).photons;
-  seeds_ = device_.buffer((photons_ ? scouts : 0) * sizeof(cl_uint2), "seeds of photons");
-  accepted_ = device_.buffer((photons_ ? scouts : 0) * sizeof(cl_uint), "seeds of photons");
-  marks_ = device_.buffer(0, "marked cells");
-}
+PhotonGuide::PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons,
+                         bool guided)
+    : scene_(scene),
+      device_(device),
+      programs_(programs),
+      photons_(photons),
+      scouts_(guided ? static_cast<std::uint32_t>(scout_share * photons) : 0),
+      seeds_(device.buffer(scouts_ * sizeof(cl_uint2), "seeds of photons")),
+      accepted_(device.buffer(scouts_ * sizeof(cl_uint), "seeds of photons")),
+      marks_(device.buffer(0, "marked cells")) {}
 
 PhotonGuide::Emission PhotonGuide::emission(std::uint32_t pass) const {
-  const auto scouts = static_cast<std::uint32_t>(scout_share * photons_);
-  if (pass < next_guided_ || scouts == 0) return {photons_, PHOTONS_PLAIN};
-  return {scouts, PHOTONS_SCOUTS};
+  if (pass < next_guided_ || scouts_ == 0) return {photons_, PHOTONS_PLAIN};
+  return {scouts_, PHOTONS_SCOUTS};
 }
 
 std::uint32_t PhotonGuide::copies(std::uint32_t seeds) const {
-  const auto scouts = static_cast<std::uint32_t>(scout_share * photons_);
-  const std::uint32_t each = (photons_ - scouts) / std::max(seeds, 1u);
+  const std::uint32_t each = (photons_ - scouts_) / std::max(seeds, 1u);
   return std::min(each > 0 ? each - 1 : 0, most_copies);
 }
 
@@ -52,7 +53,7 @@ void PhotonGuide::add_arguments(cl::Kernel& trace_photons, cl_uint first) const 
 }
 
 void PhotonGuide::set_radius(double radius) {
-  if (photons_ == 0) return;
+  if (scouts_ == 0) return;
   reach_ = static_cast<float>(0.49 * radius);
   cells_ = grid_of(scene_, radius, most_buckets);
   marks_ = device_.buffer(mark_bytes(cells_), "marked cells");
@@ -61,7 +62,7 @@ void PhotonGuide::set_radius(double radius) {
 
 void PhotonGuide::mark(const cl::Buffer& visible_points, std::size_t count, std::uint32_t pass) {
   // Later passes see little that is new, and what they see is lit by scouts.
-  if (photons_ == 0 || (pass & (pass + 1)) != 0) return;
+  if (scouts_ == 0 || (pass & (pass + 1)) != 0) return;
   if (!mark_visible_points_()) mark_visible_points_ = programs_.kernel("gather", "mark_visible_points");
   set_arguments(mark_visible_points_, visible_points, marks_, cells_, reach_, static_cast<cl_uint>(count));
   device_.launch_pass(mark_visible_points_, count);

@@ -14,8 +14,9 @@ namespace causticl {
 
 class PhotonGuide {
  public:
-  /// For passes of `photons` photons; 0 where photons are not guided.
-  PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons);
+  /// For passes of `photons` photons, which are all plain where they are not `guided`.
+  PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons,
+              bool guided);
 
   /// Photons of pass `pass` that are emitted at random: all of them, in role PHOTONS_PLAIN, or scouts.
   struct Emission {
@@ -45,7 +46,7 @@ class PhotonGuide {
   const DeviceScene& scene_;
   Device& device_;
   Programs& programs_;
-  std::uint32_t photons_;
+  std::uint32_t photons_, scouts_;  // of a pass; no scouts where photons are not guided
   cl::Buffer seeds_, accepted_, marks_;
   Grid cells_{};
   float reach_ = 0;

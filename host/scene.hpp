@@ -76,7 +76,8 @@ struct Environment {
 };
 
 struct CameraSpec {
-  // Both camera forms of the file are brought to the thin lens of cl/scene_records.h by device_camera (upload).
+  // Both camera forms of the file are brought to the thin lens of cl/scene_records.h by device_camera
+  // (upload).
   Vec3 origin;
   Vec3 axis{0, 0, -1};  // unit
   Vec3 right, up;       // full film extent at distance 1 along the axis

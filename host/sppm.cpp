@@ -30,10 +30,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
-      guide_(device_scene, device, programs,
-             scene.renderer.guided_photons && with_photons
-                 ? static_cast<std::uint32_t>(scene.renderer.photons)
-                 : 0),
+      guide_(device_scene, device, programs, static_cast<std::uint32_t>(scene.renderer.photons),
+             scene.renderer.guided_photons && with_photons),
       photon_map_(device_scene, device, programs, counters_, guide_),
       with_photons_(with_photons && params_.emitter_count > 0),
       visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
@@ -82,12 +80,10 @@ void Sppm::start_pass(std::uint32_t pass) {
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
   const auto emission = guide_.emission(pass);
-  const auto photons = static_cast<std::size_t>(spec_.guided_photons ? emission.photons : spec_.photons);
   params_.photon_role = emission.role;
-  params_.first_photon = static_cast<uint>(share_.first_of(photons));
-  params_.photon_count = static_cast<uint>(share_.count_of(photons));
-  params_.photon_flux =
-      static_cast<float>(std::numbers::pi * device_scene_.emitted_power / static_cast<double>(photons));
+  params_.first_photon = static_cast<uint>(share_.first_of(emission.photons));
+  params_.photon_count = static_cast<uint>(share_.count_of(emission.photons));
+  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / emission.photons);
   if (with_photons_) totals_.update(photon_map_.trace(params_));
   started_pass_ = pass;
 }

@@ -8,7 +8,7 @@
 # spot and directional lights) or is itself off by more than 10%, it is a photon-mapped one, of 50 times as many photons
 # and a radius that stays a fifth of the first. Its own noise is known: bounds are widened by it, and it is taken off
 # true errors. What was measured is kept in out/calibration/, so that a run that was interrupted goes on where it was.
-# Takes about four minutes a scene. Prints the table of README.
+# As many scenes as there are processors are rendered side by side: half an hour for all on two. Prints the table of README.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 

@@ -19,7 +19,7 @@ std::pair<std::vector<Photon>, Counters> traced(const Scene& scene, uint photons
   options.effects = effect_bits(find_effects(scene)) | OUTPUT_LAYERS;
   Programs programs(test_device(), options, {"photon"});
   const auto counters = test_device().upload(std::vector<Counters>{{}}, "counters");
-  PhotonGuide unguided(device_scene, test_device(), programs, 0);
+  PhotonGuide unguided(device_scene, test_device(), programs, photons, false);
   PhotonMap map(device_scene, test_device(), programs, counters, unguided);
   map.prepare();
   Params params = scene_params(scene, device_scene, 7);
