@@ -2,6 +2,9 @@
 // medium scatters them.
 #include "direct.cl"
 #include "guided_photons.cl"
+#ifdef WAVE_BRUTE_FORCE
+#include "brute_force.cl"
+#endif
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
@@ -155,6 +158,22 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
   }
 }
 
+#ifdef WAVE_BRUTE_FORCE
+// Finds where each photon's ray ends.
+OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
+  const Geometry *g = &scene->geometry;
+  for (uint i = 0; i < count; ++i) {
+    Hit hit = hit_none(INFINITY);
+    if (HAS(EFFECT_PLANES))
+      for (uint k = 0; k < g->plane_count; ++k) shape_closest(g->shapes + k, k, g->curves, wave_ray(wave, i), &hit);
+    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+  }
+  RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
+                    {wave->direction[0], wave->direction[1], wave->direction[2]},
+                    wave->t, wave->u, wave->v, wave->primitive};
+  count_faults(brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays), counters);
+}
+#else
 // Finds where each photon's ray ends.
 OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
   for (uint i = 0; i < count; ++i) {
@@ -164,6 +183,7 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
 }
+#endif
 
 // Takes each photon past its hit.
 OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth, uint count, Wave *wave) {

@@ -100,6 +100,9 @@ CHECK_SIZE(TriangleBlock, 320);
 #define BLOCK_SHAPE 0x80000000u
 #define BLOCK_EMPTY 0xffffffffu
 
+// Primitives of a tree that brute_force.cl meets in place of walking it, at most: with more it takes longer.
+#define BRUTE_FORCE_PRIMITIVES 40u
+
 // The maps of a block's triangles to (0, 0), (1, 0), (0, 1) in z = 0, for triangle_precomputed.cl: row i of a map is
 // row[i][0] x + row[i][1] y + row[i][2], plus z for i = 2, where z is the coordinate along the axis in which the
 // normal is largest and x and y are those that follow it. A lane without a triangle has NaN in its rows.

@@ -93,45 +93,53 @@ INLINE float16 packet_signed_difference(float16 a, float16 b, float16 c, float16
   return (p - q) + (fma(a, b, -p) - fma(c, d, -q));
 }
 
+// The corners of a triangle, moved to the origin of each ray and sheared along it: see block_intersect().
+typedef struct {
+  float16 ax, ay, az, bx, by, bz, cx, cy, cz;
+} PacketCorners;
+
 // Takes triangle `lane` of block `index` into the hits of the rays that meet it nearer than what they have. A ray that
 // has met another one at the same distance must be traced on its own, since the first that it comes to is to count; the
 // same triangle may have come before, from another cell. True if a hit was changed.
-INLINE bool packet_intersect(global const TriangleBlock *blocks, uint index, uint lane, const PacketTriangleRays *p,
-                             PacketHits *hits) {
-  global const TriangleBlock *block = blocks + index;
-  global const float *a = block->position[0][0] + lane, *b = block->position[1][0] + lane,
-                     *c = block->position[2][0] + lane;
-  float16 az = a[p->z] - p->origin_z;
-  float16 bz = b[p->z] - p->origin_z;
-  float16 cz = c[p->z] - p->origin_z;
-  float16 ax = fma(-p->shear_x, az, a[p->x] - p->origin_x);
-  float16 ay = fma(-p->shear_y, az, a[p->y] - p->origin_y);
-  float16 bx = fma(-p->shear_x, bz, b[p->x] - p->origin_x);
-  float16 by = fma(-p->shear_y, bz, b[p->y] - p->origin_y);
-  float16 cx = fma(-p->shear_x, cz, c[p->x] - p->origin_x);
-  float16 cy = fma(-p->shear_y, cz, c[p->y] - p->origin_y);
-
-  float16 u = cx * by - cy * bx;
-  float16 v = ax * cy - ay * cx;
-  float16 w = bx * ay - by * ax;
-  float16 low = min(min(u, v), w), high = max(max(u, v), w);
-  if (packet_bits((low >= 0) | (high <= 0)) == 0) return false;
-
-  u = packet_signed_difference(cx, by, cy, bx);
-  v = packet_signed_difference(ax, cy, ay, cx);
-  w = packet_signed_difference(bx, ay, by, ax);
+INLINE bool packet_take_triangle(global const TriangleBlock *blocks, uint index, uint lane, const PacketCorners *p,
+                                 float16 scale_z, PacketHits *hits) {
+  float16 u = packet_signed_difference(p->cx, p->by, p->cy, p->bx);
+  float16 v = packet_signed_difference(p->ax, p->cy, p->ay, p->cx);
+  float16 w = packet_signed_difference(p->bx, p->ay, p->by, p->ax);
   float16 determinant = u + v + w;
   float16 inverse = 1 / determinant;
-  float16 distance = (u * az + v * bz + w * cz) * (p->scale_z * inverse);
+  float16 distance = (u * p->az + v * p->bz + w * p->cz) * (scale_z * inverse);
   int16 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
   int16 met = inside & (determinant != 0) & (distance > 0) & (distance <= hits->t);
-  if (packet_bits(met) == 0) return false;
-  uint triangle = block->primitive[lane];
+  uint triangle = blocks[index].primitive[lane];
   hits->again |= packet_bits(met & (distance == hits->t) & (hits->triangle != triangle));
   hits->t = met ? distance : hits->t;
   hits->u = met ? v * inverse : hits->u;
   hits->v = met ? w * inverse : hits->v;
   hits->primitive = met ? (uint16)(index * 8u + lane) : hits->primitive;
   hits->triangle = met ? (uint16)triangle : hits->triangle;
-  return true;
+  return packet_bits(met) != 0;
+}
+
+// packet_take_triangle() for rays whose largest components lie along one axis. Most triangles are missed by all.
+INLINE bool packet_intersect(global const TriangleBlock *blocks, uint index, uint lane, const PacketTriangleRays *p,
+                             PacketHits *hits) {
+  global const TriangleBlock *block = blocks + index;
+  global const float *a = block->position[0][0] + lane, *b = block->position[1][0] + lane,
+                     *c = block->position[2][0] + lane;
+  PacketCorners corners;
+  corners.az = a[p->z] - p->origin_z, corners.bz = b[p->z] - p->origin_z, corners.cz = c[p->z] - p->origin_z;
+  corners.ax = fma(-p->shear_x, corners.az, a[p->x] - p->origin_x);
+  corners.ay = fma(-p->shear_y, corners.az, a[p->y] - p->origin_y);
+  corners.bx = fma(-p->shear_x, corners.bz, b[p->x] - p->origin_x);
+  corners.by = fma(-p->shear_y, corners.bz, b[p->y] - p->origin_y);
+  corners.cx = fma(-p->shear_x, corners.cz, c[p->x] - p->origin_x);
+  corners.cy = fma(-p->shear_y, corners.cz, c[p->y] - p->origin_y);
+
+  float16 u = corners.cx * corners.by - corners.cy * corners.bx;
+  float16 v = corners.ax * corners.cy - corners.ay * corners.cx;
+  float16 w = corners.bx * corners.ay - corners.by * corners.ax;
+  float16 low = min(min(u, v), w), high = max(max(u, v), w);
+  if (packet_bits((low >= 0) | (high <= 0)) == 0) return false;
+  return packet_take_triangle(blocks, index, lane, &corners, p->scale_z, hits);
 }

@@ -30,6 +30,12 @@ INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STE
 #define VECTORISED(looped) 0
 #endif
 
+// Whether the photons of a wave meet all primitives in place of walking the tree each: the host asks for it where they
+// are few.
+#if defined(PHOTONS_BRUTE_FORCE) && WAVE_CAPACITY > 1u
+#define WAVE_BRUTE_FORCE
+#endif
+
 // What befell a photon at one event of its path, as bits.
 #define EVENT_ALIVE 1u       // it goes on
 #define EVENT_STORED 2u      // `landed` holds its record

@@ -129,6 +129,9 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
     statistics.device_bytes += part->device.allocated_bytes();
     statistics.camera_rays +=
         (statistics.camera_rays.empty() ? "" : " + ") + camera_rays_text(part->programs.options());
+    if (statistics.photons)
+      statistics.photon_rays +=
+          (statistics.photon_rays.empty() ? "" : " + ") + photon_rays_text(part->programs.options());
     statistics.kept_programs += part->device.kept_programs() - part->kept_before;
     for (const auto& [name, time] : part->kernel_times()) {
       statistics.kernels[name].milliseconds += time.milliseconds;
@@ -178,7 +181,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
         "pixels see; use one --device, or -D renderer.guided_photons=false");
   std::vector<std::unique_ptr<RenderDevice>> parts;
   for (Device* device : devices)
-    parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels, options.camera_rays,
+    parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels,
+                                                   RayChoice{options.camera_rays, options.photon_rays},
                                                    passes_to_run(plan), options.threads));
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
   std::optional<double> first_radius = scene.renderer.radius;

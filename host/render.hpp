@@ -15,6 +15,7 @@
 #include "image.hpp"
 #include "integrator.hpp"
 #include "kernels.hpp"
+#include "photon_rays.hpp"
 #include "scene.hpp"
 #include "triangle_transforms.hpp"
 
@@ -38,6 +39,7 @@ struct RenderOptions {
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
   CameraRays camera_rays = CameraRays::automatic;
+  PhotonRays photon_rays = PhotonRays::automatic;
   unsigned threads = 0;          // for the tree; 0: all of the machine
   std::string effects = "auto";  // --effects, as chosen_effects takes it
   std::string kernel_dir;        // --kernel-dir: read cl/ live; empty: the embedded sources
@@ -85,6 +87,7 @@ struct Statistics {
   double error_seconds = 0;  // looking at the error of the picture, while passes go on
   double tree_build_seconds = 0;
   std::string camera_rays;  // how they find what they meet first, on each device
+  std::string photon_rays;  // how they find what they meet; empty where there are none
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;           // estimated; none after a single pass and of a black picture
   std::optional<double> passes_to_half_error;  // further ones, estimated; none while the trend is not known

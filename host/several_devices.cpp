@@ -17,19 +17,20 @@ void for_each(const std::vector<RenderDevice*>& devices, const std::function<voi
   for (auto& one : running) one.get();
 }
 
-KernelOptions with_camera_rays(KernelOptions kernels, CameraRays wanted, const Device& device) {
-  kernels.camera_packets = packets_chosen(wanted, device, kernels);
+KernelOptions with_rays(KernelOptions kernels, RayChoice wanted, const Scene& scene, const Device& device) {
+  kernels.camera_packets = packets_chosen(wanted.camera, device, kernels);
+  kernels.brute_force_photons = brute_force_chosen(wanted.photon, scene, device, kernels);
   return kernels;
 }
 
 }  // namespace
 
-RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels,
-                           CameraRays camera_rays, const std::vector<std::string>& passes, unsigned threads)
+RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
+                           const std::vector<std::string>& passes, unsigned threads)
     : device(on),
       times_before(on.kernel_times()),
       kept_before(on.kept_programs()),
-      programs(on, with_camera_rays(kernels, camera_rays, on), passes),
+      programs(on, with_rays(kernels, rays, what, on), passes),
       scene(upload_scene(what, on, threads, kernels.triangle_test)),
       film(on, programs, what.width, what.height) {}
 

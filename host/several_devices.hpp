@@ -7,15 +7,22 @@
 #include "film.hpp"
 #include "first_hits.hpp"
 #include "integrator.hpp"
+#include "photon_rays.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
 
 namespace causticl {
 
+/// How rays of either end find what they meet.
+struct RayChoice {
+  CameraRays camera = CameraRays::automatic;
+  PhotonRays photon = PhotonRays::automatic;
+};
+
 /// All that a render keeps on one device.
 struct RenderDevice {
   /// Begins to build the programs of `passes` and uploads the scene; `threads` build its tree (0: all cores).
-  RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, CameraRays camera_rays,
+  RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
                const std::vector<std::string>& passes, unsigned threads);
 
   Device& device;

@@ -1,0 +1,24 @@
+// How photons find what they meet next.
+#pragma once
+
+#include <string>
+
+#include "kernels.hpp"
+#include "scene.hpp"
+
+namespace causticl {
+
+/// Through the tree one by one, or sixteen at a time by brute force (cl/brute_force.cl); the picture is the
+/// same. `automatic`: by brute force on CPUs where primitives are few.
+enum class PhotonRays { automatic, tree, brute_force };
+
+/// Whether the program of a device is to trace photons by brute force. Never in double precision, by the
+/// precomputed test, among revolved curves, and where bounded primitives are more than
+/// BRUTE_FORCE_PRIMITIVES.
+bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
+                        const KernelOptions& options);
+
+/// What --stats says of it: "sixteen at a time, each meets every primitive", "one by one".
+std::string photon_rays_text(const KernelOptions& options);
+
+}  // namespace causticl

@@ -1,0 +1,228 @@
+// Sixteen rays against every primitive, as photons meet small scenes: the hits of kdtree_closest() to the
+// bit. That those are right is checked in test_kdtree.cpp and test_sphere.cpp.
+#include <cstring>
+#include <sstream>
+
+#include "kernels/traversal_scene.hpp"
+#include "shape_inputs.hpp"
+
+using namespace causticl;
+
+namespace {
+
+// Rays are two float4 as in traversal_kernels.hpp, results (t, weights, primitive of the scene as bits).
+// "sixteens" takes 32 rays an item, of which the last may have fewer. Planes, which the host puts first, are
+// not in the tree.
+constexpr const char* kernels = R"(
+#include "shape.cl"
+#include "brute_force.cl"
+#define RAYS 32u
+INLINE void store_hit(global float4 *hits, uint i, global const TriangleBlock *blocks, Hit hit) {
+  uint primitive = hit.primitive;
+  if (!(primitive & HIT_SHAPE)) primitive = blocks[primitive / 8u].primitive[primitive % 8u];
+  hits[i] = (float4)(hit.t, hit.u, hit.v, as_float(primitive));
+}
+kernel void one_by_one(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+                       global const float4 *rays, global float4 *hits, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
+  Hit hit = hit_none(rays[2 * i].w);
+  kdtree_closest(nodes, blocks, shapes, 0, ray, &hit);
+  store_hit(hits, i, blocks, hit);
+}
+kernel void sixteens(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+                     global const float4 *rays, global float4 *hits, uint count, uint first_shape, global uint *faults) {
+  uint first = get_global_id(0) * RAYS;
+  if (first >= count) return;
+  uint size = min(RAYS, count - first);
+  float origin[3][RAYS], direction[3][RAYS], t[RAYS], u[RAYS], v[RAYS];
+  uint primitive[RAYS];
+  for (uint k = 0; k < RAYS; ++k) {
+    uint i = min(first + k, count - 1u);
+    float4 from = rays[2 * i], to = rays[2 * i + 1];
+    origin[0][k] = from.x, origin[1][k] = from.y, origin[2][k] = from.z;
+    direction[0][k] = to.x, direction[1][k] = to.y, direction[2][k] = to.z;
+    t[k] = from.w, u[k] = v[k] = 0, primitive[k] = HIT_NONE;
+  }
+  for (uint k = size; k < RAYS; ++k) u[k] = 42;
+  RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
+  uint found = brute_force_closest(nodes, blocks, shapes, 0, first_shape, size, &arrays);
+  for (uint k = size; k < RAYS; ++k)
+    if (u[k] != 42 || primitive[k] != HIT_NONE) found |= 256u;  // not of these rays
+  if (found) atomic_or(faults, found);
+  for (uint k = 0; k < size; ++k) {
+    Hit hit = {t[k], primitive[k], u[k], v[k], 0};
+    store_hit(hits, first + k, blocks, hit);
+  }
+}
+)";
+
+cl::Program& program() {
+  static cl::Program built = build_test_program(kernels, EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS);
+  return built;
+}
+
+struct BothHits {
+  std::vector<TestHit> single, sixteen;
+  uint faults;
+};
+
+BothHits trace(const Traversal& scene, const std::vector<TestRay>& rays, uint first_shape) {
+  auto& device = test_device();
+  const auto count = static_cast<cl_uint>(rays.size());
+  const auto buffer = Traversal::upload(rays);
+  const auto single = device.buffer(rays.size() * sizeof(TestHit), "single"),
+             sixteen = device.buffer(rays.size() * sizeof(TestHit), "sixteen"),
+             faults = device.buffer(sizeof(uint), "faults");
+  device.clear(faults, sizeof(uint));
+  run_kernel(program(), "one_by_one", rays.size(), scene.nodes, scene.blocks, scene.shapes, buffer, single,
+             count);
+  run_kernel(program(), "sixteens", (rays.size() + 31) / 32, scene.nodes, scene.blocks, scene.shapes, buffer,
+             sixteen, count, first_shape, faults);
+  return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(sixteen, rays.size()),
+          device.download<uint>(faults, 1)[0]};
+}
+
+void check_sixteens(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
+                    uint first_shape = 0) {
+  REQUIRE(input.triangles.size() + input.shapes.size() <= BRUTE_FORCE_PRIMITIVES);
+  const Traversal scene(input, shapes);
+  const auto rays = hard_rays(scene, random, 64 * 1024 - 5);  // the last sixteen are not full
+  const auto [single, sixteen, faults] = trace(scene, rays, first_shape);
+  std::ostringstream examples;
+  examples.precision(9);
+  std::size_t different = 0, hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits += single[i].primitive != BLOCK_EMPTY;
+    if (std::memcmp(&single[i], &sixteen[i], sizeof(TestHit)) == 0) continue;
+    if (++different > 3) continue;
+    const auto& r = rays[i];
+    examples << "\nray " << i << ": o " << r.origin.x << " " << r.origin.y << " " << r.origin.z << " d "
+             << r.direction.x << " " << r.direction.y << " " << r.direction.z << " single " << single[i].t
+             << " of " << single[i].primitive << " sixteen " << sixteen[i].t << " of "
+             << sixteen[i].primitive;
+  }
+  INFO(different << " of " << rays.size() << " rays, " << hits << " hits" << examples.str());
+  CHECK(different == 0);
+  CHECK(faults == 0);
+  if (!input.triangles.empty() || !input.shapes.empty()) CHECK(hits > rays.size() / 100);
+}
+
+Vec3 random_offset(RandomInputs& random) {
+  return {random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8)};
+}
+
+void add(TriangleMesh& mesh, const TriangleMesh& more) { mesh.insert(mesh.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+TEST_CASE("sixteen rays against all find what each finds in the tree: a room with boxes and spheres") {
+  RandomInputs random(60);
+  auto [input, shapes] = random_spheres(random, 3, 0.4);
+  add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
+  add(input.triangles, box_mesh({-0.7, -1, -0.6}, {-0.1, 0.2, 0}));
+  check_sixteens(input, shapes, random);
+}
+
+TEST_CASE("sixteen rays against all find what each finds in the tree: as many as there may be") {
+  RandomInputs random(61);
+  const auto [input, shapes] = random_spheres(random, BRUTE_FORCE_PRIMITIVES, 0.5);
+  check_sixteens(input, shapes, random);
+  TriangleMesh mesh = icosphere_mesh(0, 1);
+  add(mesh, icosphere_mesh(0, 0.6));
+  REQUIRE(mesh.size() == BRUTE_FORCE_PRIMITIVES);
+  check_sixteens({mesh, {}}, {}, random);
+}
+
+TEST_CASE(
+    "sixteen rays against all find what each finds in the tree: faces shared, duplicates, flat, needles") {
+  RandomInputs random(62);
+  TriangleMesh boxes;
+  for (int i = 0; i < 3; ++i) add(boxes, box_mesh({0.5 * i, 0, 0}, {0.5 * i + 0.5, 0.5, 0.5}));
+  check_sixteens({boxes, {}}, {}, random);
+  TriangleMesh duplicates;
+  for (int i = 0; i < 10; ++i) {
+    duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
+    duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
+  }
+  check_sixteens({duplicates, {}}, {}, random);
+  TriangleMesh needles;
+  for (int i = 0; i < 20; ++i)
+    needles.push_back(make_triangle({0.05 * i, 0, 0}, {0.05 * i + 1e-5, 0, 1}, {0.05 * i, 1, 0.5}));
+  check_sixteens({needles, {}}, {}, random);
+}
+
+TEST_CASE(
+    "sixteen rays against all find what each finds in the tree: shapes after planes, the same sphere twice") {
+  RandomInputs random(63);
+  auto [input, shapes] = random_spheres(random, 8, 0.6);
+  input.shapes.push_back(input.shapes[2]);
+  shapes.push_back(shapes[2]);
+  input.shapes.back().shape = 8;
+  constexpr uint planes = 70;  // more than bits to tell spheres apart by
+  for (auto& entry : input.shapes) entry.shape += planes;
+  shapes.insert(shapes.begin(), planes, Shape{});
+  check_sixteens(input, shapes, random, planes);
+}
+
+TEST_CASE(
+    "sixteen rays against all find what each finds in the tree: far from the origin, one triangle, none") {
+  RandomInputs random(64);
+  auto far = box_mesh({1e6, 1e6, -1e6}, {1e6 + 50, 1e6 + 20, 30 - 1e6});
+  check_sixteens({far, {}}, {}, random);
+  check_sixteens({{make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, {}}, {}, random);
+  check_sixteens({}, {}, random);
+}
+
+TEST_CASE("sixteen rays against all find what each finds in the tree: disks among spheres and triangles") {
+  RandomInputs random(66);
+  auto [input, shapes] = random_spheres(random, 6, 0.4);
+  for (uint i = 6; i < 14; ++i) {
+    const auto to_world = Transform::scale({random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), 1})
+                              .followed_by(Transform::rotate(0, random.uniform(0, 6.28)))
+                              .followed_by(Transform::rotate(1, i % 2 ? random.uniform(0, 6.28) : 0))
+                              .followed_by(Transform::shift(random_offset(random)));
+    shapes.push_back(make_shape(SHAPE_DISK, to_world));
+    TreeShape entry{{}, i};
+    for (int k = 0; k < 3; ++k) {
+      const double half = std::hypot(to_world.rows[k].x, to_world.rows[k].y) * 1.00001;
+      entry.bounds.low[k] = static_cast<float>(to_world.translation[k] - half);
+      entry.bounds.high[k] = static_cast<float>(to_world.translation[k] + half);
+    }
+    input.shapes.push_back(entry);
+  }
+  add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
+  check_sixteens(input, shapes, random);
+}
+
+TEST_CASE("a ray that is not finite changes nothing for the other fifteen") {
+  RandomInputs random(65);
+  auto [input, shapes] = random_spheres(random, 4, 0.5);
+  add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
+  const Traversal scene(input, shapes);
+  const auto rays = hard_rays(scene, random, 8192);
+  auto broken = rays;
+  std::vector<bool> finite(rays.size(), true);
+  for (std::size_t i = 0; i < rays.size(); i += 16) {
+    const auto k = i + static_cast<std::size_t>(random.uniform(0, 16));
+    const int axis = static_cast<int>(random.uniform(0, 3));
+    (random.uniform() < 0.5 ? broken[k].origin : broken[k].direction)[axis] =
+        random.uniform() < 0.5 ? NAN : INFINITY;
+    finite[k] = false;
+  }
+  const auto hits = trace(scene, rays, 0).single;
+  // Alone, a ray of NaN goes round in the tree for long.
+  const auto count = static_cast<cl_uint>(rays.size());
+  auto& device = test_device();
+  const auto found = device.buffer(rays.size() * sizeof(TestHit), "hits"),
+             faults = device.buffer(sizeof(uint), "faults");
+  device.clear(faults, sizeof(uint));
+  run_kernel(program(), "sixteens", (rays.size() + 31) / 32, scene.nodes, scene.blocks, scene.shapes,
+             Traversal::upload(broken), found, count, 0u, faults);
+  const auto others = device.download<TestHit>(found, rays.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    different += finite[i] && std::memcmp(&hits[i], &others[i], sizeof(TestHit)) != 0;
+  CHECK(different == 0);
+}
