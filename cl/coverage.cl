@@ -14,11 +14,18 @@
 // Surfaces that keep no photons, as glass, are passed by, up to this many.
 #define COVERAGE_MOST_HITS 4u
 
-// The probe of a visible point at `position` on a surface whose normal `n` is on its side, for a ball of that radius: what
-// lies first of surfaces that keep photons, along the chord that is the ball's normal at the place. Surface that leans away
-// by as much as photons must not does not count (GATHER_NORMAL_COSINE).
-OUTLINE uint coverage_probe(const Scene *scene, real3 position, real3 n, real radius2, real4 random, uint *rays,
-                            volatile global Counters *counters) {
+// Whether the primitive of a visible point's hit goes on at a place beside it: no ray need tell.
+INLINE bool coverage_goes_on(const Geometry *g, Hit hit, real3 offset) {
+  if (!(hit.primitive & HIT_SHAPE)) return HAS(EFFECT_TRIANGLES) ? triangle_holds(g->blocks, hit, offset) : false;
+  return HAS(EFFECT_PLANES) ? g->shapes[hit.primitive & ~HIT_SHAPE].type == SHAPE_PLANE : false;
+}
+
+// The probe of a visible point at `position`, where the hit `here` is, on a surface whose normal `n` is on its side, for a
+// ball of that radius: what lies first of surfaces that keep photons, along the chord that is the ball's normal at the
+// place; but the primitive of `here` wherever that goes on. Surface that leans away by as much as photons must not does
+// not count (GATHER_NORMAL_COSINE).
+OUTLINE uint coverage_probe(const Scene *scene, Hit here, real3 position, real3 n, real radius2, real4 random,
+                            uint *rays, volatile global Counters *counters) {
   uint probe = COVERAGE_PROBED;
   if (random.w < COVERAGE_SHARE_OF_HALF) {
     radius2 /= 4;
@@ -28,7 +35,9 @@ OUTLINE uint coverage_probe(const Scene *scene, real3 position, real3 n, real ra
   orthonormal_basis(n, &tangent, &bitangent);
   real2 place = sqrt(radius2) * disc_uniform(random.xy);
   real half_chord = sqrt(fmax(radius2 - dot(place, place), (real)0)), left = 2 * half_chord;
-  Ray ray = {position + place.x * tangent + place.y * bitangent + half_chord * n, -n};
+  real3 offset = place.x * tangent + place.y * bitangent;
+  if (coverage_goes_on(&scene->geometry, here, offset)) return probe | 1u << COVERAGE_SHIFT;
+  Ray ray = {position + offset + half_chord * n, -n};
   for (uint i = 0; i < COVERAGE_MOST_HITS; ++i) {
     Hit hit = hit_none(left);
     ++*rays;

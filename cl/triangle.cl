@@ -118,6 +118,19 @@ INLINE real3 triangle_normal(real3 a, real3 b, real3 c) {
   return scaled3(1 / length, (real3)(x, y, z));
 }
 
+// Whether the triangle of a hit holds the point that lies by `offset`, which is along its plane, from there. False for one
+// too thin to tell.
+INLINE bool triangle_holds(global const TriangleBlock *blocks, Hit hit, real3 offset) {
+  global const TriangleBlock *block = blocks + hit.primitive / 8u;
+  uint lane = hit.primitive % 8u;
+  real3 a = block_vertex(block, 0, lane);
+  real3 e = block_vertex(block, 1, lane) - a, f = block_vertex(block, 2, lane) - a;
+  real ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), oe = dot(offset, e), of = dot(offset, f);
+  real inverse = 1 / (ee * ff - ef * ef);
+  real u = hit.u + (oe * ff - of * ef) * inverse, v = hit.v + (of * ee - oe * ef) * inverse;
+  return u >= 0 && v >= 0 && u + v <= 1;
+}
+
 // The surface at a hit on a triangle. The position is interpolated, which is far more exact than o + t d; its
 // error is bounded as in Pharr, Jakob, Humphreys, PBR section 6.8.5.
 INLINE void triangle_surface(global const TriangleBlock *blocks, global const TriangleAttributes *attributes, Hit hit,

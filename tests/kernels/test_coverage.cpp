@@ -23,8 +23,11 @@ kernel void probe(SCENE_PARAMETERS, global const float4 *points, global const fl
   SCENE_INIT(params);
   RandomStream stream = {7, 0, i};
   uint rays = 0;
-  out[i] = coverage_probe(&scene, convert_real3(points[i / each].xyz), convert_real3(normals[i / each].xyz), radius2,
-                          random4(stream, 0), &rays, counters);
+  real3 point = convert_real3(points[i / each].xyz), normal = convert_real3(normals[i / each].xyz);
+  Ray ray = {point + (real)0.001 * normal, -normal};
+  Hit here = hit_none(INFINITY);
+  geometry_closest(&scene.geometry, ray, &here);
+  out[i] = coverage_probe(&scene, here, point, normal, radius2, random4(stream, 0), &rays, counters);
 }
 kernel void means(global const uint *probes, global uint *states, uint each, uint pixels) {
   uint i = get_global_id(0), state = 0;
