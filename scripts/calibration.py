@@ -14,7 +14,8 @@ BUDGETS, SEEDS = (8, 32, 128), range(1, 9)
 LONG, LONG_SEEDS = (512, 2048), (1, 2)  # where half the error is
 SETTINGS = ['--quiet', '--size', '48x36', '--threads', '1']  # one scene for each processor is faster
 PHOTONS = 10000
-WORST_REFERENCE = 0.1  # error of a path-traced reference, by its own estimate
+SAMPLES, MORE_SAMPLES = 4096, 65536  # of a path-traced reference; more where its own error is above the worst
+WORST_REFERENCE = 0.1
 
 causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])
 
@@ -45,10 +46,12 @@ def reference_of(scene, first_radius):
     """The picture that is as good as the truth, and its statistics."""
     name = scene.stem
     if not has_hidden_caustics(scene):
-        picture = folder / f'{name}-pt.exr'
-        stats = render(scene, picture, '--integrator', 'pt', '--samples', 4096, '--seed', 100)
-        if stats['error'] <= WORST_REFERENCE:
-            return picture, stats
+        path_trace = lambda picture, samples: (
+            picture, render(scene, picture, '--integrator', 'pt', '--samples', samples, '--seed', 100))
+        picture, stats = path_trace(folder / f'{name}-pt.exr', SAMPLES)
+        if stats['error'] > WORST_REFERENCE:
+            picture, stats = path_trace(folder / f'{name}-more-pt.exr', MORE_SAMPLES)
+        return picture, stats
     picture = folder / f'{name}-sppm.exr'
     return picture, render(scene, picture, '--integrator', 'sppm', '--photons', 50000, '--passes', 1280, '--seed', 100,
                            '-D', f'renderer.radius={first_radius / 5:.6g}', '-D', 'renderer.alpha=0.99',

@@ -215,6 +215,92 @@ TEST_CASE("guided photons bring the same light as others, with less noise") {
   CHECK(chi2 / static_cast<double>(plain.mean.size()) < 2.5);
 }
 
+namespace {
+
+/// Mean luminance of the picture and of its layers, where there are any, for each of the seeds.
+std::vector<std::vector<double>> means_of(Scene scene, bool guided, RenderOptions options) {
+  scene.renderer.integrator = Integrator::sppm;
+  scene.renderer.passes = 16;
+  scene.renderer.guided_photons = guided;
+  std::vector<std::vector<double>> means;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    options.seed = static_cast<std::uint32_t>(seed);
+    const RenderResult result = render_scene(scene, test_device(), options);
+    std::vector<double> these{mean_luminance(result.picture)};
+    for (const auto& channel : result.picture.channels) {
+      these.push_back(0);
+      for (const float value : channel.values) these.back() += static_cast<double>(value);
+    }
+    means.push_back(these);
+    if (!guided) continue;
+    REQUIRE(result.statistics.seeds);
+    CHECK(result.statistics.seeds->copies > 0);
+  }
+  return means;
+}
+
+void check_same_light(const char* name, const Scene& scene, const RenderOptions& options = {}) {
+  const auto plain = means_of(scene, false, options), guided = means_of(scene, true, options);
+  for (std::size_t k = 0; k < plain[0].size(); ++k) {
+    double difference = 0, squares = 0, sum = 0;
+    for (const auto& [means, sign] : {std::pair(&plain, -1.0), std::pair(&guided, 1.0)}) {
+      double mean = 0;
+      for (const auto& one : *means) mean += one[k] / seeds;
+      for (const auto& one : *means) squares += std::pow(one[k] - mean, 2) / (seeds - 1) / seeds;
+      difference += sign * mean;
+      sum += mean;
+    }
+    INFO(name << ", mean " << k << ": " << difference << " apart, +- " << std::sqrt(squares) << ", of "
+              << sum / 2);
+    CHECK(std::fabs(difference) <= 5 * std::sqrt(squares));
+    if (k == 0) CHECK(std::sqrt(squares) < 0.1 * sum);  // so that the comparison tells something
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "guided photons bring the same light: through a medium, dispersion and absorption, layer by layer") {
+  Scene scene = next_room(true);
+  scene.medium = {{0.01, 0.01, 0.01}, {0.02, 0.02, 0.02}, 0.3};
+  MaterialSpec glass;
+  glass.kind = MaterialSpec::Kind::glass;
+  glass.absorption = {0.2, 0.5, 1};
+  glass.dispersion = 0.01;
+  scene.materials.push_back(glass);
+  Object ball;
+  ball.radius = 0.5;
+  ball.material = static_cast<int>(scene.materials.size()) - 1;
+  ball.transform = Transform::shift({1.2, 0.5, 1});
+  scene.objects.push_back(ball);
+  RenderOptions options;
+  options.layers = true;
+  check_same_light("all effects", scene, options);
+}
+
+TEST_CASE("guided photons bring the same light: more of them than there was room for") {
+  Scene scene = next_room(true);
+  scene.max_depth = 40;
+  for (auto& material : scene.materials)
+    if (max_component(material.emission) == 0) material.color = {0.97, 0.97, 0.97};
+  // A gap of a fifth, so that few find it all the same.
+  scene.objects[1].size[2] = 1.6;
+  scene.objects[1].transform.translation[2] = 0.8;
+  scene.renderer.passes = 2;
+  scene.renderer.integrator = Integrator::sppm;
+  const auto stored = render_scene(scene, test_device(), {}).statistics.stored_photons;
+  // For two a photon there is room at first.
+  REQUIRE(stored > 2 * static_cast<std::uint64_t>(scene.renderer.photons));
+  check_same_light("white walls", scene);
+}
+
+TEST_CASE("guided photons bring the same light: in double precision") {
+  if (!test_device().info().fp64) return;
+  RenderOptions options;
+  options.precision = Precision::float64;
+  check_same_light("double", next_room(true), options);
+}
+
 TEST_CASE("guided photons give the same bits in any order of execution, and are for one device alone") {
   const DeviceInfo info = test_device().info();
   const auto pixels = [&](Device& device) {
