@@ -43,6 +43,11 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
                                      scene.renderer.visible_points / result.seconds_per_pass;
   result.statistics.photons_per_second =
       static_cast<double>(scene.renderer.photons) / result.seconds_per_pass;
+  double kernels = 0;
+  for (const auto& [name, time] : rendered.statistics.kernels)
+    if (name != "pixel_errors")
+      kernels += time.milliseconds / 1000;  // which looks at the error, between passes
+  result.host_share = 1 - kernels / rendered.statistics.pass_seconds;
   if (compare) result.relative_rmse = compare_with_references(rendered.picture).relative_rmse;
   return result;
 }
@@ -176,10 +181,11 @@ std::string render_table(const std::vector<RenderBenchResult>& results) {
                   result.cpu_seconds_per_pass, 1e-6 * s.photons_per_second,
                   1e-6 * result.visible_points_per_second, 1e-6 * s.rays_per_second);
     table += line;
-    std::snprintf(line, sizeof line,
-                  "     tree %.3f s, %.1f bytes a pixel, %.0f MiB on the device, peak %.0f MiB",
-                  s.tree_build_seconds, s.bytes_per_pixel, static_cast<double>(s.device_bytes) / 1048576,
-                  static_cast<double>(s.peak_memory_bytes) / 1048576);
+    std::snprintf(
+        line, sizeof line,
+        "     tree %.3f s, host %.1f%% of a pass, %.1f bytes a pixel, %.0f MiB on the device, peak %.0f MiB",
+        s.tree_build_seconds, 100 * result.host_share, s.bytes_per_pixel,
+        static_cast<double>(s.device_bytes) / 1048576, static_cast<double>(s.peak_memory_bytes) / 1048576);
     table += line;
     if (result.relative_rmse >= 0) {
       std::snprintf(line, sizeof line, "; relative RMSE %.4f after %d passes, %.2f s", result.relative_rmse,
@@ -209,6 +215,7 @@ nlohmann::json render_json(const std::vector<RenderBenchResult>& results) {
                          {"seconds_per_pass", result.seconds_per_pass},
                          {"cpu_seconds_per_pass", result.cpu_seconds_per_pass},
                          {"tree_build_seconds", s.tree_build_seconds},
+                         {"host_share", result.host_share},
                          {"bytes_per_pixel", s.bytes_per_pixel},
                          {"device_bytes", s.device_bytes},
                          {"peak_memory_bytes", s.peak_memory_bytes}};
