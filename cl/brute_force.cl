@@ -1,12 +1,13 @@
-// Nearest hits where there are few primitives: sixteen rays at a time, which may go any way, meet every one of them.
-// That takes neither nodes nor branches on which rays differ, of which a walk through the tree mostly consists where the
-// tree is small. On devices that run a work-item's float16 as vectors, as PoCL's do.
+// Nearest hits where there are few primitives: incoherent rays, sixteen to a packet, meet every one of them. That takes
+// neither nodes nor branches on which rays differ, of which a walk through the tree mostly consists where the tree is
+// small. On devices that run a work-item's float16 as vectors, as PoCL's do.
 //
 // The hits are those of kdtree_closest() to the bit. A ray that meets two primitives at the same distance is traced again
-// on its own, since then the order in which it comes to them decides; so is one that comes near a disk.
+// on its own, since then the order in which it comes to them decides.
 //
 // For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most.
-#include "kdtree_packet.cl"
+#include "kdtree.cl"
+#include "triangle_packet.cl"
 
 // Rays, and up to where they are traced or what they have met so far, as Ray and Hit have them. All arrays hold whole
 // packets.
@@ -16,21 +17,21 @@ typedef struct {
   uint *primitive;
 } RayArrays;
 
-// Sixteen of them. Their largest components may lie along different axes: the order of axes that TriangleRay has for
+// A packet of them. Their largest components may lie along different axes: the order of axes that TriangleRay has for
 // each is a choice between coordinates.
 typedef struct {
   float16 origin_x, origin_y, origin_z;
   float16 direction_x, direction_y, direction_z;
   int16 along_x, along_y;  // whether the largest component does; else that along z
   float16 shear_x, shear_y, scale_z;
-} RaySixteen;
+} IncoherentRays;
 
-INLINE float16 along_axis(const RaySixteen *r, float16 x, float16 y, float16 z) {
+INLINE float16 along_axis(const IncoherentRays *r, float16 x, float16 y, float16 z) {
   return r->along_x ? x : (r->along_y ? y : z);
 }
 
-INLINE RaySixteen ray_sixteen(const RayArrays *rays, uint first) {
-  RaySixteen r;
+INLINE IncoherentRays incoherent_rays(const RayArrays *rays, uint first) {
+  IncoherentRays r;
   r.origin_x = vload16(0, rays->origin[0] + first), r.direction_x = vload16(0, rays->direction[0] + first);
   r.origin_y = vload16(0, rays->origin[1] + first), r.direction_y = vload16(0, rays->direction[1] + first);
   r.origin_z = vload16(0, rays->origin[2] + first), r.direction_z = vload16(0, rays->direction[2] + first);
@@ -44,8 +45,8 @@ INLINE RaySixteen ray_sixteen(const RayArrays *rays, uint first) {
   return r;
 }
 
-INLINE void corner_of_sixteen(global const TriangleBlock *block, uint vertex, uint lane, const RaySixteen *r, float16 *x,
-                              float16 *y, float16 *z) {
+INLINE void incoherent_corner(global const TriangleBlock *block, uint vertex, uint lane, const IncoherentRays *r,
+                              float16 *x, float16 *y, float16 *z) {
   float16 from_x = block->position[vertex][0][lane] - r->origin_x;
   float16 from_y = block->position[vertex][1][lane] - r->origin_y;
   float16 from_z = block->position[vertex][2][lane] - r->origin_z;
@@ -54,17 +55,19 @@ INLINE void corner_of_sixteen(global const TriangleBlock *block, uint vertex, ui
   *y = fma(-r->shear_y, *z, along_axis(r, from_z, from_x, from_y));
 }
 
-INLINE void triangle_of_sixteen(global const TriangleBlock *blocks, uint index, uint lane, const RaySixteen *r,
+INLINE void incoherent_triangle(global const TriangleBlock *blocks, uint index, uint lane, const IncoherentRays *r,
                                 PacketHits *hits) {
   PacketCorners c;
-  corner_of_sixteen(blocks + index, 0, lane, r, &c.ax, &c.ay, &c.az);
-  corner_of_sixteen(blocks + index, 1, lane, r, &c.bx, &c.by, &c.bz);
-  corner_of_sixteen(blocks + index, 2, lane, r, &c.cx, &c.cy, &c.cz);
-  packet_take_triangle(blocks, index, lane, &c, r->scale_z, hits);
+  incoherent_corner(blocks + index, 0, lane, r, &c.ax, &c.ay, &c.az);
+  incoherent_corner(blocks + index, 1, lane, r, &c.bx, &c.by, &c.bz);
+  incoherent_corner(blocks + index, 2, lane, r, &c.cx, &c.cy, &c.cz);
+  float16 t, weight_1, weight_2;
+  int16 met = packet_meets(&c, r->scale_z, hits->t, &t, &weight_1, &weight_2);
+  packet_take(met, t, weight_1, weight_2, index * 8u + lane, blocks[index].primitive[lane], hits);
 }
 
 // shape_closest() of a sphere, with the operations of sphere_intersect() in the same order.
-INLINE void sphere_of_sixteen(global const Shape *shape, uint index, const RaySixteen *r, PacketHits *hits) {
+INLINE void incoherent_sphere(global const Shape *shape, uint index, const IncoherentRays *r, PacketHits *hits) {
   float radius = shape->sphere.w;
   float16 dx = r->direction_x, dy = r->direction_y, dz = r->direction_z;
   float16 fx = r->origin_x - shape->sphere.x, fy = r->origin_y - shape->sphere.y, fz = r->origin_z - shape->sphere.z;
@@ -81,39 +84,27 @@ INLINE void sphere_of_sixteen(global const Shape *shape, uint index, const RaySi
   float16 other = c > 3 * radius * radius ? b - root : clamp(c / q, -fabs(q), fabs(q));
   float16 near = min(q, other), far = max(q, other);
   float16 t = near > 0 ? near : far;
-  met &= (t > 0) & (t <= hits->t);
-  hits->again |= packet_bits(met & (t == hits->t));
-  hits->t = met ? t : hits->t;
-  hits->u = met ? (float16)0 : hits->u;
-  hits->v = met ? (float16)0 : hits->v;
-  hits->primitive = met ? (uint16)(HIT_SHAPE | index) : hits->primitive;
-  hits->triangle = met ? (uint16)HIT_NONE : hits->triangle;
+  packet_take(met & (t > 0) & (t <= hits->t), t, (float16)0, (float16)0, HIT_SHAPE | index, HIT_NONE, hits);
 }
 
-// Lets the rays that meet the bounds of a shape before their hits be traced again, and here no further.
-INLINE void other_shape_of_sixteen(global const KdNode *root, global const TriangleBlock *block, uint lane,
-                                   const RaySixteen *r, PacketHits *hits) {
-  PacketSlabs s = packet_slabs(root, r->origin_x, r->origin_y, r->origin_z, r->direction_x, r->direction_y, r->direction_z);
-  float16 low_x = block->position[0][0][lane], high_x = block->position[1][0][lane];
-  float16 low_y = block->position[0][1][lane], high_y = block->position[1][1][lane];
-  float16 low_z = block->position[0][2][lane], high_z = block->position[1][2][lane];
-  int16 down_x = s.inverse_x < 0, down_y = s.inverse_y < 0, down_z = s.inverse_z < 0;
-  float16 near_x = fma(down_x ? high_x : low_x, s.inverse_x, s.enter_x);
-  float16 near_y = fma(down_y ? high_y : low_y, s.inverse_y, s.enter_y);
-  float16 near_z = fma(down_z ? high_z : low_z, s.inverse_z, s.enter_z);
-  float16 far_x = fma(down_x ? low_x : high_x, s.inverse_x, s.leave_x);
-  float16 far_y = fma(down_y ? low_y : high_y, s.inverse_y, s.leave_y);
-  float16 far_z = fma(down_z ? low_z : high_z, s.inverse_z, s.leave_z);
-  float16 enter = max(max(near_x, near_y), max(near_z, (float16)0));
-  int16 near = enter <= min(min(far_x, far_y), min(far_z, hits->t));
-  hits->again |= packet_bits(near);
-  hits->t = near ? (float16)-INFINITY : hits->t;
+// shape_closest() of a disk, as disk_intersect() has it.
+INLINE void incoherent_disk(global const Shape *shape, uint index, const IncoherentRays *r, PacketHits *hits) {
+  float3 centre = plane_centre(shape);
+  float4 x = shape->to_local[0], y = shape->to_local[1], z = shape->to_local[2];
+  float16 dx = r->direction_x, dy = r->direction_y, dz = r->direction_z;
+  float16 t = (z.x * (centre.x - r->origin_x) + z.y * (centre.y - r->origin_y) + z.z * (centre.z - r->origin_z)) /
+              (z.x * dx + z.y * dy + z.z * dz);
+  float16 fx = fma(t, dx, r->origin_x - centre.x), fy = fma(t, dy, r->origin_y - centre.y),
+          fz = fma(t, dz, r->origin_z - centre.z);
+  float16 px = x.x * fx + x.y * fy + x.z * fz, py = y.x * fx + y.y * fy + y.z * fz;
+  packet_take((px * px + py * py <= 1) & (t > 0) & (t <= hits->t), t, (float16)0, (float16)0, HIT_SHAPE | index, HIT_NONE,
+              hits);
 }
 
 // Takes what the tree holds into the hits, each primitive once: cells may share some. `first_shape` is the least index
 // that one of its shapes may have. The nodes of a tree lie in one piece, a node before its children.
 INLINE void meet_all(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                     uint first_shape, const RaySixteen *r, PacketHits *hits) {
+                     uint first_shape, const IncoherentRays *r, PacketHits *hits) {
   ulong triangles_met = 0, shapes_met = 0;
   uint last = 0;
   for (uint index = 0; index <= last; ++index) {
@@ -132,13 +123,13 @@ INLINE void meet_all(global const KdNode *nodes, global const TriangleBlock *blo
             ulong bit = 1ul << (shape - first_shape);
             if (shapes_met & bit) continue;
             shapes_met |= bit;
-            if (!HAS(EFFECT_DISKS) || shapes[shape].type == SHAPE_SPHERE)
-              sphere_of_sixteen(shapes + shape, shape, r, hits);
+            if (HAS(EFFECT_DISKS) && shapes[shape].type == SHAPE_DISK)
+              incoherent_disk(shapes + shape, shape, r, hits);
             else
-              other_shape_of_sixteen(nodes, blocks + block, lane, r, hits);
+              incoherent_sphere(shapes + shape, shape, r, hits);
           } else if (HAS(EFFECT_TRIANGLES)) {
             ulong bit = 1ul << primitive;
-            if (!(triangles_met & bit)) triangle_of_sixteen(blocks, block, lane, r, hits);
+            if (!(triangles_met & bit)) incoherent_triangle(blocks, block, lane, r, hits);
             triangles_met |= bit;
           }
         }
@@ -147,34 +138,29 @@ INLINE void meet_all(global const KdNode *nodes, global const TriangleBlock *blo
   }
 }
 
-// kdtree_closest() of the first `count` rays. Returns FAULT_* bits of all.
+// kdtree_closest() of the first `count` rays. Returns how many of these were traced again and cut short
+// (FAULT_TRAVERSAL_BOUND).
 INLINE uint brute_force_closest(global const KdNode *nodes, global const TriangleBlock *blocks,
                                 global const Shape *shapes, global const float *curves, uint first_shape, uint count,
                                 const RayArrays *rays) {
+  uint cut_short = 0;
   const uint16 lanes = (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const int16 bits = (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
-  uint faults = 0;
   for (uint first = 0; first < count; first += PACKET_RAYS) {
-    RaySixteen r = ray_sixteen(rays, first);
-    float16 t = vload16(0, rays->t + first), u = vload16(0, rays->u + first), v = vload16(0, rays->v + first);
-    uint16 primitive = vload16(0, rays->primitive + first);
+    IncoherentRays r = incoherent_rays(rays, first);
     int16 member = lanes + first < count;
-    PacketHits hits = {member ? t : (float16)-INFINITY, u, v, primitive, (uint16)HIT_NONE, 0};
+    PacketHits hits = {member ? vload16(0, rays->t + first) : (float16)-INFINITY, vload16(0, rays->u + first),
+                       vload16(0, rays->v + first), vload16(0, rays->primitive + first), (uint16)HIT_NONE, 0};
     meet_all(nodes, blocks, shapes, first_shape, &r, &hits);
-    int16 stays = member & (((int16)(int)hits.again & bits) == 0);
-    vstore16(stays ? hits.t : t, 0, rays->t + first);
-    vstore16(stays ? hits.u : u, 0, rays->u + first);
-    vstore16(stays ? hits.v : v, 0, rays->v + first);
-    vstore16(stays ? hits.primitive : primitive, 0, rays->primitive + first);
+    packet_store(&hits, member, rays->t + first, rays->u + first, rays->v + first, rays->primitive + first);
     for (uint again = hits.again; again != 0; again &= again - 1u) {
       uint i = first + lowest_bit(again);
       Ray ray = {(float3)(rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]),
                  (float3)(rays->direction[0][i], rays->direction[1][i], rays->direction[2][i])};
       Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], 0};
       kdtree_closest(nodes, blocks, shapes, curves, ray, &hit);
-      faults |= hit.faults;
+      cut_short += (hit.faults & FAULT_TRAVERSAL_BOUND) ? 1u : 0u;
       rays->t[i] = hit.t, rays->u[i] = hit.u, rays->v[i] = hit.v, rays->primitive[i] = hit.primitive;
     }
   }
-  return faults;
+  return cut_short;
 }

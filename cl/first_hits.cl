@@ -45,9 +45,7 @@ OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint 
       used |= 1u << i;
       paths[i] = pixel * samples + sample;
       ray = path_ray(params, paths[i]);
-      if (HAS(EFFECT_PLANES))
-        for (uint k = 0; k < geometry->plane_count; ++k)
-          shape_closest(geometry->shapes + k, k, geometry->curves, ray, &hit);
+      planes_closest(geometry, ray, &hit);
     }
     packet_set(&rays, i, ray, hit);
   }

@@ -19,11 +19,17 @@ typedef struct {
 #define GEOMETRY_INIT(plane_count) \
   const Geometry geometry = {nodes, blocks, attributes, shapes, curves, plane_count};
 
-// Takes the nearest hit with 0 < t < hit->t into `hit`. False, and `hit` as it was, if there is none.
-INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
+// geometry_closest() of the infinite planes alone, which are in no tree.
+INLINE bool planes_closest(const Geometry *g, Ray ray, Hit *hit) {
   bool found = false;
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i) found |= shape_closest(g->shapes + i, i, g->curves, ray, hit);
+  return found;
+}
+
+// Takes the nearest hit with 0 < t < hit->t into `hit`. False, and `hit` as it was, if there is none.
+INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
+  bool found = planes_closest(g, ray, hit);
   if (HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER))
     found |= kdtree_closest(g->nodes, g->blocks, g->shapes, g->curves, ray, hit);
   return found;

@@ -224,12 +224,8 @@ INLINE uint packet_closest(global const KdNode *nodes, global const TriangleBloc
   PacketTriangleRays triangle = packet_triangle_rays((uint)own / 8u, ox, oy, oz, dx, dy, dz);
   packet_walk(nodes, blocks, &bounds, &slabs, &triangle, &hits);
 
-  int16 stays = member & (((int16)(int)hits.again & bits) == 0);
   *again |= hits.again & members;
-  vstore16(stays ? hits.t : t, 0, rays->t);
-  vstore16(stays ? hits.u : u, 0, rays->u);
-  vstore16(stays ? hits.v : v, 0, rays->v);
-  vstore16(stays ? hits.primitive : primitive, 0, rays->primitive);
+  packet_store(&hits, member, rays->t, rays->u, rays->v, rays->primitive);
   return members;
 }
 

@@ -158,32 +158,27 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
   }
 }
 
-#ifdef WAVE_BRUTE_FORCE
 // Finds where each photon's ray ends.
 OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
-    if (HAS(EFFECT_PLANES))
-      for (uint k = 0; k < g->plane_count; ++k) shape_closest(g->shapes + k, k, g->curves, wave_ray(wave, i), &hit);
+#ifdef WAVE_BRUTE_FORCE
+    planes_closest(g, wave_ray(wave, i), &hit);
+#else
+    geometry_closest(g, wave_ray(wave, i), &hit);
+    count_faults(hit.faults, counters);
+#endif
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
+#ifdef WAVE_BRUTE_FORCE
   RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
                     {wave->direction[0], wave->direction[1], wave->direction[2]},
                     wave->t, wave->u, wave->v, wave->primitive};
-  count_faults(brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays), counters);
-}
-#else
-// Finds where each photon's ray ends.
-OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
-  for (uint i = 0; i < count; ++i) {
-    Hit hit = hit_none(INFINITY);
-    geometry_closest(&scene->geometry, wave_ray(wave, i), &hit);
-    count_faults(hit.faults, counters);
-    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
-  }
-}
+  uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
+  if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
 #endif
+}
 
 // Takes each photon past its hit.
 OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth, uint count, Wave *wave) {

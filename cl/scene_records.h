@@ -100,7 +100,8 @@ CHECK_SIZE(TriangleBlock, 320);
 #define BLOCK_SHAPE 0x80000000u
 #define BLOCK_EMPTY 0xffffffffu
 
-// Primitives of a tree that brute_force.cl meets in place of walking it, at most: with more it takes longer.
+// Primitives of a tree that brute_force.cl meets in place of walking it, at most: with more it gains little or loses. It
+// tells them apart by 64 bits.
 #define BRUTE_FORCE_PRIMITIVES 40u
 
 // The maps of a block's triangles to (0, 0), (1, 0), (0, 1) in z = 0, for triangle_precomputed.cl: row i of a map is

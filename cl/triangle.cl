@@ -126,7 +126,9 @@ INLINE bool triangle_holds(global const TriangleBlock *blocks, Hit hit, real3 of
   real3 a = block_vertex(block, 0, lane);
   real3 e = block_vertex(block, 1, lane) - a, f = block_vertex(block, 2, lane) - a;
   real ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), oe = dot(offset, e), of = dot(offset, f);
-  real inverse = 1 / (ee * ff - ef * ef);
+  real determinant = ee * ff - ef * ef;
+  if (!(determinant > (real)1e-5 * ee * ff)) return false;
+  real inverse = 1 / determinant;
   real u = hit.u + (oe * ff - of * ef) * inverse, v = hit.v + (of * ee - oe * ef) * inverse;
   return u >= 0 && v >= 0 && u + v <= 1;
 }

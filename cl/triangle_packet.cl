@@ -93,35 +93,51 @@ INLINE float16 packet_signed_difference(float16 a, float16 b, float16 c, float16
   return (p - q) + (fma(a, b, -p) - fma(c, d, -q));
 }
 
+// Takes `primitive` into the hits of the rays that meet it: at `t`, which is no farther than what they have. A ray that has
+// met something else at the same distance must be traced on its own, since the first that it comes to is to count;
+// `triangle`, which may have come before, from another cell, is that of the scene, HIT_NONE for a shape.
+INLINE void packet_take(int16 met, float16 t, float16 u, float16 v, uint primitive, uint triangle, PacketHits *hits) {
+  int16 other = triangle == HIT_NONE ? (int16)-1 : hits->triangle != triangle;
+  hits->again |= packet_bits(met & (t == hits->t) & other);
+  hits->t = met ? t : hits->t;
+  hits->u = met ? u : hits->u;
+  hits->v = met ? v : hits->v;
+  hits->primitive = met ? (uint16)primitive : hits->primitive;
+  hits->triangle = met ? (uint16)triangle : hits->triangle;
+}
+
+// Stores the hits of the rays in `stays` for which none must be traced again; the arrays keep what they hold of others.
+INLINE void packet_store(const PacketHits *hits, int16 stays, float *t, float *u, float *v, uint *primitive) {
+  const int16 bits = (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+  stays &= ((int16)(int)hits->again & bits) == 0;
+  vstore16(stays ? hits->t : vload16(0, t), 0, t);
+  vstore16(stays ? hits->u : vload16(0, u), 0, u);
+  vstore16(stays ? hits->v : vload16(0, v), 0, v);
+  vstore16(stays ? hits->primitive : vload16(0, primitive), 0, primitive);
+}
+
 // The corners of a triangle, moved to the origin of each ray and sheared along it: see block_intersect().
 typedef struct {
   float16 ax, ay, az, bx, by, bz, cx, cy, cz;
 } PacketCorners;
 
-// Takes triangle `lane` of block `index` into the hits of the rays that meet it nearer than what they have. A ray that
-// has met another one at the same distance must be traced on its own, since the first that it comes to is to count; the
-// same triangle may have come before, from another cell. True if a hit was changed.
-INLINE bool packet_take_triangle(global const TriangleBlock *blocks, uint index, uint lane, const PacketCorners *p,
-                                 float16 scale_z, PacketHits *hits) {
+// Where rays meet a triangle no farther than `t_max`, and the weights of vertices 1 and 2 there.
+INLINE int16 packet_meets(const PacketCorners *p, float16 scale_z, float16 t_max, float16 *t, float16 *weight_1,
+                          float16 *weight_2) {
   float16 u = packet_signed_difference(p->cx, p->by, p->cy, p->bx);
   float16 v = packet_signed_difference(p->ax, p->cy, p->ay, p->cx);
   float16 w = packet_signed_difference(p->bx, p->ay, p->by, p->ax);
   float16 determinant = u + v + w;
   float16 inverse = 1 / determinant;
-  float16 distance = (u * p->az + v * p->bz + w * p->cz) * (scale_z * inverse);
+  *t = (u * p->az + v * p->bz + w * p->cz) * (scale_z * inverse);
+  *weight_1 = v * inverse;
+  *weight_2 = w * inverse;
   int16 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
-  int16 met = inside & (determinant != 0) & (distance > 0) & (distance <= hits->t);
-  uint triangle = blocks[index].primitive[lane];
-  hits->again |= packet_bits(met & (distance == hits->t) & (hits->triangle != triangle));
-  hits->t = met ? distance : hits->t;
-  hits->u = met ? v * inverse : hits->u;
-  hits->v = met ? w * inverse : hits->v;
-  hits->primitive = met ? (uint16)(index * 8u + lane) : hits->primitive;
-  hits->triangle = met ? (uint16)triangle : hits->triangle;
-  return packet_bits(met) != 0;
+  return inside & (determinant != 0) & (*t > 0) & (*t <= t_max);
 }
 
-// packet_take_triangle() for rays whose largest components lie along one axis. Most triangles are missed by all.
+// Takes triangle `lane` of block `index` into the hits of rays whose largest components lie along one axis. True if a hit
+// was changed.
 INLINE bool packet_intersect(global const TriangleBlock *blocks, uint index, uint lane, const PacketTriangleRays *p,
                              PacketHits *hits) {
   global const TriangleBlock *block = blocks + index;
@@ -141,5 +157,9 @@ INLINE bool packet_intersect(global const TriangleBlock *blocks, uint index, uin
   float16 w = corners.bx * corners.ay - corners.by * corners.ax;
   float16 low = min(min(u, v), w), high = max(max(u, v), w);
   if (packet_bits((low >= 0) | (high <= 0)) == 0) return false;
-  return packet_take_triangle(blocks, index, lane, &corners, p->scale_z, hits);
+  float16 t, weight_1, weight_2;
+  int16 met = packet_meets(&corners, p->scale_z, hits->t, &t, &weight_1, &weight_2);
+  if (packet_bits(met) == 0) return false;
+  packet_take(met, t, weight_1, weight_2, index * 8u + lane, block->primitive[lane], hits);
+  return true;
 }

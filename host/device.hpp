@@ -56,6 +56,10 @@ class Device {
   /// Whether programs that are built at the same time are: PoCL has one lock around its compiler.
   bool compiles_in_parallel() const { return !is_pocl_; }
 
+  /// Whether one item of a work-group may do what all are to do: PoCL runs them one after the other
+  /// (cl/wave.cl).
+  bool runs_items_in_turn() const { return is_pocl_; }
+
   /// Whether several threads may use the device, as OpenCL promises: under Oclgrind one alone.
   bool takes_threads() const { return !is_oclgrind_; }
 

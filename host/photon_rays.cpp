@@ -1,45 +1,20 @@
 #include "photon_rays.hpp"
 
-#include <optional>
+#include <algorithm>
 
 #include "types.h"
+#include "world.hpp"
 
 namespace causticl {
-namespace {
-
-/// Bounded primitives as build_world() makes them; none where a revolved curve is among them.
-std::optional<std::size_t> primitives_but_curves(const Scene& scene) {
-  std::size_t count = 0;
-  for (const auto& object : scene.objects) switch (object.shape) {
-      case Object::Shape::plane:
-        break;
-      case Object::Shape::sphere:
-      case Object::Shape::disk:
-        count += 1;
-        break;
-      case Object::Shape::rectangle:
-        count += 2;
-        break;
-      case Object::Shape::box:
-        count += 12;
-        break;
-      case Object::Shape::mesh:
-        count += scene.meshes[object.mesh].triangles();
-        break;
-      case Object::Shape::bezier:
-        return {};
-    }
-  return count;
-}
-
-}  // namespace
 
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
                         const KernelOptions& options) {
-  const auto primitives = primitives_but_curves(scene);
-  const bool possible = primitives && *primitives > 0 && *primitives <= BRUTE_FORCE_PRIMITIVES &&
+  static_assert(BRUTE_FORCE_PRIMITIVES <= 64, "brute_force.cl has a bit for each");
+  const bool curves = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                  [](const Object& object) { return object.shape == Object::Shape::bezier; });
+  const bool possible = !curves && bounded_primitives(scene) <= BRUTE_FORCE_PRIMITIVES &&
                         options.precision == Precision::float32 &&
-                        options.triangle_test == TriangleTest::watertight;
+                        options.triangle_test == TriangleTest::watertight && device.runs_items_in_turn();
   // A GPU's items are not helped by vectors within each.
   return possible && (wanted == PhotonRays::brute_force ||
                       (wanted == PhotonRays::automatic && device.info().type == "cpu"));

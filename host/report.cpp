@@ -108,7 +108,7 @@ std::string statistics_table(const Statistics& s) {
   if (s.photons) {
     append(text, "  %-28s %llu (%s/s)\n", "photons", Number(s.photons),
            si_number(s.photons_per_second).c_str());
-    append(text, "  %-28s %s\n", "  their rays", s.photon_rays.c_str());
+    append(text, "  %-28s %s\n", "  photon rays", s.photon_rays.c_str());
     append(text, "  %-28s %llu\n", "  stored in the last pass", Number(s.stored_photons));
     if (s.seeds)
       append(text, "  %-28s %.2g%% of the scouts land where the camera sees; %s\n", "  guided",

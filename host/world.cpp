@@ -281,6 +281,26 @@ class WorldBuilder {
 
 }  // namespace
 
+std::size_t bounded_primitives(const Scene& scene) {
+  std::size_t count = 0;
+  for (const auto& object : scene.objects) switch (object.shape) {
+      case Shape3::plane:
+        break;
+      case Shape3::mesh:
+        count += scene.meshes[object.mesh].triangles();
+        break;
+      case Shape3::rectangle:
+        count += 2;
+        break;
+      case Shape3::box:
+        count += 12;
+        break;
+      default:
+        count += 1;
+    }
+  return count;
+}
+
 World build_world(const Scene& scene, double time) { return WorldBuilder(scene, time).build(); }
 
 }  // namespace causticl

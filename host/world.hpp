@@ -25,4 +25,7 @@ struct World {
 /// probabilities.
 World build_world(const Scene& scene, double time = 0);
 
+/// How many primitives it puts into the tree.
+std::size_t bounded_primitives(const Scene& scene);
+
 }  // namespace causticl

@@ -18,6 +18,14 @@ namespace {
 
 const std::string scenes = std::string(CAUSTICL_SOURCE_DIR) + "/scenes/";
 
+/// Seconds of all kernels of passes so far; looks at the error are between passes.
+double kernel_seconds(Device& device) {
+  double milliseconds = 0;
+  for (const auto& [name, time] : device.kernel_times())
+    if (name != "pixel_errors") milliseconds += time.milliseconds;
+  return milliseconds / 1000;
+}
+
 RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_light, int passes,
                               bool compare) {
   RenderBenchResult result;
@@ -32,8 +40,12 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
   Device fresh(device.info());
   Stopwatch watch;
   Elapsed start;
+  double kernels_before = 0, passes_before = 0;
   const auto rendered = render_scene(scene, fresh, {}, [&](const Progress& progress) {
-    if (progress.pass == 1) start = watch.elapsed();
+    if (progress.pass != 1) return;
+    start = watch.elapsed();
+    kernels_before = kernel_seconds(fresh);
+    passes_before = progress.pass_seconds;
   });
   const Elapsed end = watch.elapsed();
   result.statistics = rendered.statistics;
@@ -43,11 +55,8 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
                                      scene.renderer.visible_points / result.seconds_per_pass;
   result.statistics.photons_per_second =
       static_cast<double>(scene.renderer.photons) / result.seconds_per_pass;
-  double kernels = 0;
-  for (const auto& [name, time] : rendered.statistics.kernels)
-    if (name != "pixel_errors")
-      kernels += time.milliseconds / 1000;  // which looks at the error, between passes
-  result.host_share = 1 - kernels / rendered.statistics.pass_seconds;
+  result.host_share =
+      1 - (kernel_seconds(fresh) - kernels_before) / (rendered.statistics.pass_seconds - passes_before);
   if (compare) result.relative_rmse = compare_with_references(rendered.picture).relative_rmse;
   return result;
 }

@@ -1,4 +1,4 @@
-// Sixteen rays against every primitive, as photons meet small scenes: the hits of kdtree_closest() to the
+// Packets of rays against every primitive, as photons meet small scenes: the hits of kdtree_closest() to the
 // bit. That those are right is checked in test_kdtree.cpp and test_sphere.cpp.
 #include <cstring>
 #include <sstream>
@@ -10,47 +10,31 @@ using namespace causticl;
 
 namespace {
 
-// Rays are two float4 as in traversal_kernels.hpp, results (t, weights, primitive of the scene as bits).
-// "sixteens" takes 32 rays an item, of which the last may have fewer. Planes, which the host puts first, are
-// not in the tree.
-constexpr const char* kernels = R"(
-#include "shape.cl"
+// As "closest" of traversal_kernels.hpp, by 32 rays an item, of which the last may have fewer. Arrays have
+// NaN where there is no ray.
+const std::string kernels = "#include \"shape.cl\"\n" + std::string(traversal_kernels) + R"(
 #include "brute_force.cl"
 #define RAYS 32u
-INLINE void store_hit(global float4 *hits, uint i, global const TriangleBlock *blocks, Hit hit) {
-  uint primitive = hit.primitive;
-  if (!(primitive & HIT_SHAPE)) primitive = blocks[primitive / 8u].primitive[primitive % 8u];
-  hits[i] = (float4)(hit.t, hit.u, hit.v, as_float(primitive));
-}
-kernel void one_by_one(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                       global const float4 *rays, global float4 *hits, uint count) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
-  Hit hit = hit_none(rays[2 * i].w);
-  kdtree_closest(nodes, blocks, shapes, 0, ray, &hit);
-  store_hit(hits, i, blocks, hit);
-}
-kernel void sixteens(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                     global const float4 *rays, global float4 *hits, uint count, uint first_shape, global uint *faults) {
+kernel void packets(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+                     global const float4 *rays, global float4 *hits, uint count, uint first_shape, global uint *cut_short,
+                    global uint *outside) {
   uint first = get_global_id(0) * RAYS;
   if (first >= count) return;
   uint size = min(RAYS, count - first);
   float origin[3][RAYS], direction[3][RAYS], t[RAYS], u[RAYS], v[RAYS];
   uint primitive[RAYS];
   for (uint k = 0; k < RAYS; ++k) {
-    uint i = min(first + k, count - 1u);
-    float4 from = rays[2 * i], to = rays[2 * i + 1];
+    float4 from = k < size ? rays[2 * (first + k)] : (float4)NAN, to = k < size ? rays[2 * (first + k) + 1] : (float4)NAN;
     origin[0][k] = from.x, origin[1][k] = from.y, origin[2][k] = from.z;
     direction[0][k] = to.x, direction[1][k] = to.y, direction[2][k] = to.z;
     t[k] = from.w, u[k] = v[k] = 0, primitive[k] = HIT_NONE;
   }
   for (uint k = size; k < RAYS; ++k) u[k] = 42;
   RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
-  uint found = brute_force_closest(nodes, blocks, shapes, 0, first_shape, size, &arrays);
+  uint cut = brute_force_closest(nodes, blocks, shapes, 0, first_shape, size, &arrays);
+  if (cut > 0) atomic_add(cut_short, cut);
   for (uint k = size; k < RAYS; ++k)
-    if (u[k] != 42 || primitive[k] != HIT_NONE) found |= 256u;  // not of these rays
-  if (found) atomic_or(faults, found);
+    if (u[k] != 42 || primitive[k] != HIT_NONE) *outside = 1;
   for (uint k = 0; k < size; ++k) {
     Hit hit = {t[k], primitive[k], u[k], v[k], 0};
     store_hit(hits, first + k, blocks, hit);
@@ -64,8 +48,9 @@ cl::Program& program() {
 }
 
 struct BothHits {
-  std::vector<TestHit> single, sixteen;
-  uint faults;
+  std::vector<TestHit> single, packet;
+  uint cut_short;
+  uint outside;  // whether arrays were changed where there is no ray
 };
 
 BothHits trace(const Traversal& scene, const std::vector<TestRay>& rays, uint first_shape) {
@@ -73,39 +58,41 @@ BothHits trace(const Traversal& scene, const std::vector<TestRay>& rays, uint fi
   const auto count = static_cast<cl_uint>(rays.size());
   const auto buffer = Traversal::upload(rays);
   const auto single = device.buffer(rays.size() * sizeof(TestHit), "single"),
-             sixteen = device.buffer(rays.size() * sizeof(TestHit), "sixteen"),
-             faults = device.buffer(sizeof(uint), "faults");
-  device.clear(faults, sizeof(uint));
-  run_kernel(program(), "one_by_one", rays.size(), scene.nodes, scene.blocks, scene.shapes, buffer, single,
+             packet = device.buffer(rays.size() * sizeof(TestHit), "packet"),
+             cut_short = device.buffer(sizeof(uint), "cut short"),
+             outside = device.buffer(sizeof(uint), "outside");
+  device.clear(cut_short, sizeof(uint));
+  device.clear(outside, sizeof(uint));
+  run_kernel(program(), "closest", rays.size(), scene.nodes, scene.blocks, scene.shapes, buffer, single,
              count);
-  run_kernel(program(), "sixteens", (rays.size() + 31) / 32, scene.nodes, scene.blocks, scene.shapes, buffer,
-             sixteen, count, first_shape, faults);
-  return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(sixteen, rays.size()),
-          device.download<uint>(faults, 1)[0]};
+  run_kernel(program(), "packets", (rays.size() + 31) / 32, scene.nodes, scene.blocks, scene.shapes, buffer,
+             packet, count, first_shape, cut_short, outside);
+  return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(packet, rays.size()),
+          device.download<uint>(cut_short, 1)[0], device.download<uint>(outside, 1)[0]};
 }
 
-void check_sixteens(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
-                    uint first_shape = 0) {
+void check_packets(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
+                   uint first_shape = 0) {
   REQUIRE(input.triangles.size() + input.shapes.size() <= BRUTE_FORCE_PRIMITIVES);
   const Traversal scene(input, shapes);
-  const auto rays = hard_rays(scene, random, 64 * 1024 - 5);  // the last sixteen are not full
-  const auto [single, sixteen, faults] = trace(scene, rays, first_shape);
+  const auto rays = hard_rays(scene, random, 64 * 1024 - 5);  // the last packet is not full
+  const auto [single, packet, cut_short, outside] = trace(scene, rays, first_shape);
   std::ostringstream examples;
   examples.precision(9);
   std::size_t different = 0, hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     hits += single[i].primitive != BLOCK_EMPTY;
-    if (std::memcmp(&single[i], &sixteen[i], sizeof(TestHit)) == 0) continue;
+    if (std::memcmp(&single[i], &packet[i], sizeof(TestHit)) == 0) continue;
     if (++different > 3) continue;
     const auto& r = rays[i];
     examples << "\nray " << i << ": o " << r.origin.x << " " << r.origin.y << " " << r.origin.z << " d "
              << r.direction.x << " " << r.direction.y << " " << r.direction.z << " single " << single[i].t
-             << " of " << single[i].primitive << " sixteen " << sixteen[i].t << " of "
-             << sixteen[i].primitive;
+             << " of " << single[i].primitive << " packet " << packet[i].t << " of " << packet[i].primitive;
   }
   INFO(different << " of " << rays.size() << " rays, " << hits << " hits" << examples.str());
   CHECK(different == 0);
-  CHECK(faults == 0);
+  CHECK(cut_short == 0);
+  CHECK(outside == 0);
   if (!input.triangles.empty() || !input.shapes.empty()) CHECK(hits > rays.size() / 100);
 }
 
@@ -117,44 +104,46 @@ void add(TriangleMesh& mesh, const TriangleMesh& more) { mesh.insert(mesh.end(),
 
 }  // namespace
 
-TEST_CASE("sixteen rays against all find what each finds in the tree: a room with boxes and spheres") {
+TEST_CASE("incoherent packets against all find what rays find in the tree: a room with boxes and spheres") {
   RandomInputs random(60);
   auto [input, shapes] = random_spheres(random, 3, 0.4);
   add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
   add(input.triangles, box_mesh({-0.7, -1, -0.6}, {-0.1, 0.2, 0}));
-  check_sixteens(input, shapes, random);
+  check_packets(input, shapes, random);
 }
 
-TEST_CASE("sixteen rays against all find what each finds in the tree: as many as there may be") {
+TEST_CASE("incoherent packets against all find what rays find in the tree: as many as there may be") {
   RandomInputs random(61);
   const auto [input, shapes] = random_spheres(random, BRUTE_FORCE_PRIMITIVES, 0.5);
-  check_sixteens(input, shapes, random);
+  check_packets(input, shapes, random);
   TriangleMesh mesh = icosphere_mesh(0, 1);
   add(mesh, icosphere_mesh(0, 0.6));
   REQUIRE(mesh.size() == BRUTE_FORCE_PRIMITIVES);
-  check_sixteens({mesh, {}}, {}, random);
+  check_packets({mesh, {}}, {}, random);
 }
 
 TEST_CASE(
-    "sixteen rays against all find what each finds in the tree: faces shared, duplicates, flat, needles") {
+    "incoherent packets against all find what rays find in the tree: faces shared, duplicates, flat, "
+    "needles") {
   RandomInputs random(62);
   TriangleMesh boxes;
   for (int i = 0; i < 3; ++i) add(boxes, box_mesh({0.5 * i, 0, 0}, {0.5 * i + 0.5, 0.5, 0.5}));
-  check_sixteens({boxes, {}}, {}, random);
+  check_packets({boxes, {}}, {}, random);
   TriangleMesh duplicates;
   for (int i = 0; i < 10; ++i) {
     duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
     duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
   }
-  check_sixteens({duplicates, {}}, {}, random);
+  check_packets({duplicates, {}}, {}, random);
   TriangleMesh needles;
   for (int i = 0; i < 20; ++i)
     needles.push_back(make_triangle({0.05 * i, 0, 0}, {0.05 * i + 1e-5, 0, 1}, {0.05 * i, 1, 0.5}));
-  check_sixteens({needles, {}}, {}, random);
+  check_packets({needles, {}}, {}, random);
 }
 
 TEST_CASE(
-    "sixteen rays against all find what each finds in the tree: shapes after planes, the same sphere twice") {
+    "incoherent packets against all find what rays find in the tree: shapes after planes, the same sphere "
+    "twice") {
   RandomInputs random(63);
   auto [input, shapes] = random_spheres(random, 8, 0.6);
   input.shapes.push_back(input.shapes[2]);
@@ -163,19 +152,21 @@ TEST_CASE(
   constexpr uint planes = 70;  // more than bits to tell spheres apart by
   for (auto& entry : input.shapes) entry.shape += planes;
   shapes.insert(shapes.begin(), planes, Shape{});
-  check_sixteens(input, shapes, random, planes);
+  check_packets(input, shapes, random, planes);
 }
 
 TEST_CASE(
-    "sixteen rays against all find what each finds in the tree: far from the origin, one triangle, none") {
+    "incoherent packets against all find what rays find in the tree: far from the origin, one triangle, "
+    "none") {
   RandomInputs random(64);
   auto far = box_mesh({1e6, 1e6, -1e6}, {1e6 + 50, 1e6 + 20, 30 - 1e6});
-  check_sixteens({far, {}}, {}, random);
-  check_sixteens({{make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, {}}, {}, random);
-  check_sixteens({}, {}, random);
+  check_packets({far, {}}, {}, random);
+  check_packets({{make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, {}}, {}, random);
+  check_packets({}, {}, random);
 }
 
-TEST_CASE("sixteen rays against all find what each finds in the tree: disks among spheres and triangles") {
+TEST_CASE(
+    "incoherent packets against all find what rays find in the tree: disks among spheres and triangles") {
   RandomInputs random(66);
   auto [input, shapes] = random_spheres(random, 6, 0.4);
   for (uint i = 6; i < 14; ++i) {
@@ -193,7 +184,7 @@ TEST_CASE("sixteen rays against all find what each finds in the tree: disks amon
     input.shapes.push_back(entry);
   }
   add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
-  check_sixteens(input, shapes, random);
+  check_packets(input, shapes, random);
 }
 
 TEST_CASE("a ray that is not finite changes nothing for the other fifteen") {
@@ -212,15 +203,8 @@ TEST_CASE("a ray that is not finite changes nothing for the other fifteen") {
     finite[k] = false;
   }
   const auto hits = trace(scene, rays, 0).single;
-  // Alone, a ray of NaN goes round in the tree for long.
-  const auto count = static_cast<cl_uint>(rays.size());
-  auto& device = test_device();
-  const auto found = device.buffer(rays.size() * sizeof(TestHit), "hits"),
-             faults = device.buffer(sizeof(uint), "faults");
-  device.clear(faults, sizeof(uint));
-  run_kernel(program(), "sixteens", (rays.size() + 31) / 32, scene.nodes, scene.blocks, scene.shapes,
-             Traversal::upload(broken), found, count, 0u, faults);
-  const auto others = device.download<TestHit>(found, rays.size());
+  // Alone, a ray of NaN goes round in the tree up to the limit; here it meets nothing.
+  const auto others = trace(scene, broken, 0).packet;
   std::size_t different = 0;
   for (std::size_t i = 0; i < rays.size(); ++i)
     different += finite[i] && std::memcmp(&hits[i], &others[i], sizeof(TestHit)) != 0;

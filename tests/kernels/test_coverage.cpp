@@ -1,9 +1,11 @@
 // How much of a kernel lies on surfaces: probes against areas that are known, the running mean against the
 // host's, and what a picture gains.
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "params.hpp"
 #include "render/render_fixture.hpp"
@@ -16,8 +18,9 @@ namespace {
 
 const char* const source = R"(
 #include "pass_camera.cl"
-kernel void probe(SCENE_PARAMETERS, global const float4 *points, global const float4 *normals, global uint *out, uint count,
-                  uint each, float radius2, Params params, volatile global Counters *counters) {
+kernel void probe(SCENE_PARAMETERS, global const float4 *points, global const float4 *normals, global uint *out,
+                  global uint *traced, uint count, uint each, float radius2, Params params,
+                  volatile global Counters *counters) {
   uint i = get_global_id(0);
   if (i >= count) return;
   SCENE_INIT(params);
@@ -28,6 +31,14 @@ kernel void probe(SCENE_PARAMETERS, global const float4 *points, global const fl
   Hit here = hit_none(INFINITY);
   geometry_closest(&scene.geometry, ray, &here);
   out[i] = coverage_probe(&scene, here, point, normal, radius2, random4(stream, 0), &rays, counters);
+  traced[i] = rays;
+}
+kernel void holds(global const TriangleBlock *blocks, global const float4 *weights, global const float4 *offsets,
+                  global uint *out, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  Hit hit = {1, i, weights[i].x, weights[i].y, 0};
+  out[i] = triangle_holds(blocks, hit, convert_real3(offsets[i].xyz));
 }
 kernel void means(global const uint *probes, global uint *states, uint each, uint pixels) {
   uint i = get_global_id(0), state = 0;
@@ -84,7 +95,9 @@ Scene places() {
         {"type": "rotate", "axis": "x", "degree": -90}, {"type": "shift", "x": 22.5, "y": 5, "z": 0}]},
       {"type": "rectangle", "material": "grey", "transform": [{"type": "scale", "x": 2, "y": 2, "z": 1},
         {"type": "rotate", "axis": "x", "degree": -90}, {"type": "shift", "x": 20.5, "y": 5, "z": 0}]},
-      {"type": "box", "material": "grey", "size": [0.1, 1, 2], "transform": [{"type": "shift", "x": 0, "y": 0.5, "z": 0}]}]
+      {"type": "box", "material": "grey", "size": [0.1, 1, 2], "transform": [{"type": "shift", "x": 0, "y": 0.5, "z": 0}]},
+      {"type": "plane", "material": "grey", "transform": [{"type": "rotate", "axis": "x", "degree": -90},
+        {"type": "shift", "x": 0, "y": -20, "z": 0}]}]
   })");
 }
 
@@ -112,6 +125,7 @@ TEST_CASE("probes find how much of a disc lies on surfaces") {
        beside_line(0.5) + beyond_crease(0.5)},
       {"below a sheet of glass", {-1.4f, 0, 1, 0}, up, 1, 1},
       {"beside a mirror", {21.4f, 5, 0, 0}, up, beside_line(0.25), beside_line(0.5)},
+      {"on a plane", {3, -20, 0, 0}, up, 1, 1},
       // The top of a wall as thick as a quarter of the disc; a smaller disc finds more of it.
       {"on a thin wall", {0, 1, 0, 0}, up, 2 * beside_line(0.125) - 1, 2 * beside_line(0.25) - 1}};
   constexpr cl_uint each = 1 << 16;
@@ -132,14 +146,29 @@ TEST_CASE("probes find how much of a disc lies on surfaces") {
   const cl_uint index = set_scene_arguments(kernel, device_scene);
   kernel.setArg(index, at);
   kernel.setArg(index + 1, facing);
+  const auto traced = test_device().buffer(count * sizeof(cl_uint), "rays");
   kernel.setArg(index + 2, out);
-  kernel.setArg(index + 3, count);
-  kernel.setArg(index + 4, each);
-  kernel.setArg(index + 5, 0.16f);
-  kernel.setArg(index + 6, params);
-  kernel.setArg(index + 7, counters);
+  kernel.setArg(index + 3, traced);
+  kernel.setArg(index + 4, count);
+  kernel.setArg(index + 5, each);
+  kernel.setArg(index + 6, 0.16f);
+  kernel.setArg(index + 7, params);
+  kernel.setArg(index + 8, counters);
   test_device().launch(kernel, count);
-  const auto probes = test_device().download<cl_uint>(out, count);
+  const auto probes = test_device().download<cl_uint>(out, count),
+             rays = test_device().download<cl_uint>(traced, count);
+  const auto rays_at = [&](const std::string& name) {
+    const auto p =
+        static_cast<std::ptrdiff_t>(std::find_if(expected.begin(), expected.end(),
+                                                 [&](const Place& place) { return place.name == name; }) -
+                                    expected.begin());
+    return std::accumulate(rays.begin() + p * each, rays.begin() + (p + 1) * each, 0.0) / each;
+  };
+  // None where its own triangle or plane holds the place.
+  CHECK(rays_at("amid a floor") < 0.5);
+  CHECK(rays_at("on a plane") == 0);
+  CHECK(rays_at("at its edge") == Approx(0.5).margin(0.01));
+  CHECK(rays_at("on a sphere") == 1);
   for (std::size_t p = 0; p < expected.size(); ++p) {
     double sum[2] = {}, number[2] = {};
     for (std::size_t i = p * each; i < (p + 1) * each; ++i) {
@@ -153,6 +182,52 @@ TEST_CASE("probes find how much of a disc lies on surfaces") {
     CHECK(sum[0] / number[0] == Approx(expected[p].whole).margin(2.5 / std::sqrt(number[0])));
     CHECK(sum[1] / number[1] == Approx(expected[p].half_radius).margin(2.5 / std::sqrt(number[1])));
   }
+}
+
+TEST_CASE("whether a triangle holds a point beside a hit, against double precision") {
+  auto program = build_test_program(source, EFFECT_TRIANGLES);
+  RandomInputs random(20261127);
+  constexpr std::size_t count = 1 << 16;
+  std::vector<TriangleBlock> blocks(count / 8);
+  std::vector<float4> weights, offsets;
+  std::vector<int> expected;  // -1: too close to tell
+  for (std::size_t i = 0; i < count; ++i) {
+    TriangleBlock& block = blocks[i / 8];
+    const double size = std::pow(10, random.uniform(-3, 3)),
+                 thin = i % 4 == 0 ? std::pow(10, random.uniform(-9, -4)) : 1;
+    Vec3 corners[3];
+    for (int v = 0; v < 3; ++v)
+      for (int k = 0; k < 3; ++k) {
+        // The third corner of a needle lies by the second.
+        const double x = v == 2 && thin < 1 ? corners[1][k] + thin * size * random.uniform(-1, 1)
+                                            : size * random.uniform(-1, 1);
+        corners[v][k] = block.position[v][k][i % 8] = static_cast<float>(x);
+      }
+    const double u = random.uniform(), v = random.uniform(0, 1 - u), to_u = random.uniform(-0.5, 1.5),
+                 to_v = random.uniform(-0.5, 1.5);
+    const Vec3 offset = (to_u - u) * (corners[1] - corners[0]) + (to_v - v) * (corners[2] - corners[0]);
+    weights.push_back({static_cast<float>(u), static_cast<float>(v), 0, 0});
+    offsets.push_back(
+        {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z), 0});
+    const Vec3 e = corners[1] - corners[0], f = corners[2] - corners[0];
+    const double sine2 = 1 - std::pow(dot(e, f), 2) / (dot(e, e) * dot(f, f));
+    const double inside = std::min({to_u, to_v, 1 - to_u - to_v});
+    expected.push_back(sine2 < 5e-6 ? 0 : sine2 < 0.01 || std::fabs(inside) < 1e-3 ? -1 : inside > 0);
+  }
+  const auto out = test_device().buffer(count * sizeof(cl_uint), "out");
+  run_kernel(program, "holds", count, test_device().upload(blocks, "blocks"),
+             test_device().upload(weights, "weights"), test_device().upload(offsets, "offsets"), out,
+             static_cast<cl_uint>(count));
+  const auto found = test_device().download<cl_uint>(out, count);
+  std::size_t wrong = 0, held = 0, needles = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    wrong += expected[i] >= 0 && static_cast<int>(found[i]) != expected[i];
+    held += expected[i] == 1;
+    needles += i % 4 == 0 && expected[i] == 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(held > count / 20);
+  CHECK(needles > count / 10);
 }
 
 TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {

@@ -55,6 +55,7 @@ kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint 
 }
 #ifndef TRIANGLES_PRECOMPUTED
 #include "kdtree_packet.cl"
+#include "brute_force.cl"
 // As one of sixteen rays from the same point: the others go to all sides of it, some of them far.
 OUTLINE MeshHit closest_in_packet(global const MeshRay *in, uint own, MESHES) {
   MeshRange range = ranges[in->mesh];
@@ -68,12 +69,35 @@ OUTLINE MeshHit closest_in_packet(global const MeshRay *in, uint own, MESHES) {
   kdtree_closest_packet(nodes + range.first_node, blocks + range.first_block, 0, 0, &packet, (1u << PACKET_RAYS) - 1u);
   return mesh_hit(blocks + range.first_block, packet_hit(&packet, own));
 }
-// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one.
+// As one of sixteen that go anywhere, against all of a mesh of few triangles.
+OUTLINE MeshHit closest_by_brute_force(global const MeshRay *in, uint own, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  Ray ray = mesh_ray(in);
+  float origin[3][PACKET_RAYS], direction[3][PACKET_RAYS], t[PACKET_RAYS], u[PACKET_RAYS], v[PACKET_RAYS];
+  uint primitive[PACKET_RAYS];
+  for (uint i = 0; i < PACKET_RAYS; ++i) {
+    real3 other = (real3)(i & 1u ? -1 : 1, i & 2u ? -2 : 2, i & 4u ? -3 : 3) * (i & 8u ? (real)0.1f : (real)1);
+    real3 d = i == own ? ray.direction : ray.direction.yzx + other;
+    origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
+    direction[0][i] = d.x, direction[1][i] = d.y, direction[2][i] = d.z;
+    t[i] = in->t_max, u[i] = v[i] = 0, primitive[i] = HIT_NONE;
+  }
+  RayArrays rays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
+  uint cut_short = brute_force_closest(nodes + range.first_node, blocks + range.first_block, 0, 0, 0, PACKET_RAYS, &rays);
+  Hit hit = {t[own], primitive[own], u[own], v[own], cut_short > 0 ? FAULT_TRAVERSAL_BOUND : 0u};
+  return mesh_hit(blocks + range.first_block, hit);
+}
+// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, and every second of these, where a mesh
+// has few triangles, against all of them.
 kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0), own = i / PACKET_RAYS % PACKET_RAYS;
-  if (i < count)
-    hits[i] = i % PACKET_RAYS == 0 ? closest_in_packet(rays + i, own, ranges, nodes, blocks, list)
-                                   : tree_closest(rays + i, ranges, nodes, blocks, list);
+  if (i >= count) return;
+  if (i % PACKET_RAYS != 0)
+    hits[i] = tree_closest(rays + i, ranges, nodes, blocks, list);
+  else if (i % (2u * PACKET_RAYS) == 0 && 8u * ranges[rays[i].mesh].listed <= BRUTE_FORCE_PRIMITIVES)
+    hits[i] = closest_by_brute_force(rays + i, own, ranges, nodes, blocks, list);
+  else
+    hits[i] = closest_in_packet(rays + i, own, ranges, nodes, blocks, list);
 }
 #endif
 OUTLINE uint tree_occluded(global const MeshRay *in, MESHES) {
