@@ -8,7 +8,7 @@
 # path tracing would not find all light (beside point, spot and directional lights), it is a photon-mapped one, of five
 # times as many photons and a radius that stays a fifth of the first. Its own noise is known: bounds are widened by it, and
 # it is taken off true errors. What was measured is kept in out/calibration/, so that a run that was interrupted goes on where it was.
-# As many scenes as there are processors are rendered side by side: half an hour for all on two. Prints the table of README.
+# As many scenes as there are processors are rendered side by side: an hour for all on two. Prints the table of README.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
