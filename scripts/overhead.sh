@@ -3,8 +3,8 @@
 # Measures what the error estimate adds to a render, on the named scenes or on the Cornell box and the glass caustic, by
 # kernels as they ship and by a copy without the estimate (tests/bench/without_errors.patch), in turns. Both must give the
 # same picture to the bit. Prints the table of README: milliseconds of the kernels whose source differs, as a share of all
-# kernels' (of each the least of nine runs, since what else the machine does only adds); seconds of looks at the error,
-# as a share of the passes' (the least of the runs'); and both together. Takes some minutes.
+# kernels' (the median of fifteen pairs in turns, since the machine's speed drifts); seconds of looks at the error, as a
+# share of the passes' (the least of the runs'); and both together. Takes some minutes.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
@@ -20,9 +20,9 @@ cp -r "$root/cl" "$folder/without/cl"
 patch --quiet -d "$folder/without" -p1 <"$root/tests/bench/without_errors.patch" >"$folder/log" 2>&1 ||
   fail "tests/bench/without_errors.patch does not apply: $(head -1 "$folder/log")"
 python3 - "$root/build/causticl" "$folder" "${scenes[@]}" <<'PYTHON'
-import filecmp, json, pathlib, re, subprocess, sys
+import filecmp, json, pathlib, re, statistics, subprocess, sys
 causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])
-VARIANTS, RUNS = ('with', 'without'), 9
+VARIANTS, RUNS = ('with', 'without'), 15
 PASSES = {'sppm': ['--passes', '48', '--photons', '50000'], 'pt': ['--samples', '96']}
 
 
@@ -47,10 +47,6 @@ def changed_kernels(scene, integrator):
     return changed - {'pixel_errors'}  # part of a look
 
 
-def least(runs):
-    return {key: min(run.get(key, 0) for run in runs) for key in runs[0]}
-
-
 print('| scene | integrator | kernels, % | looks, % | together, % |\n|---|---|---|---|---|')
 for scene in map(pathlib.Path, sys.argv[3:]):
     for integrator, options in PASSES.items():
@@ -63,9 +59,8 @@ for scene in map(pathlib.Path, sys.argv[3:]):
                 looks += [look] if variant == 'with' else []
             if not filecmp.cmp(folder / 'with.pfm', folder / 'without.pfm', shallow=False):
                 sys.exit(f'error: {scene} by {integrator}: the estimate changes the picture')
-        time = {v: least(kernels[v]) for v in VARIANTS}
-        all_kernels = sum(time['without'].values())
-        device = sum(time['with'][k] - time['without'].get(k, 0) for k in time['with'] if k in changed) / all_kernels
+        device = statistics.median(sum(one[k] - other.get(k, 0) for k in one if k in changed) / sum(other.values())
+                                   for one, other in zip(kernels['with'], kernels['without']))
         print(f'| `{scene.stem}` | {integrator} | {100 * device:.1f} | {100 * min(looks):.1f} | {100 * (device + min(looks)):.1f} |',
               flush=True)
 PYTHON
