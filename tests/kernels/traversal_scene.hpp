@@ -1,6 +1,9 @@
 // A scene with its tree on the device, and rays of every kind that a tree can get wrong.
 #pragma once
 
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <sstream>
 #include <utility>
 
 #include "device_fixture.hpp"
@@ -88,6 +91,30 @@ inline Vec3 random_direction(RandomInputs& random) {
     const double n = length(v);
     if (n > 0.01 && n < 1) return v / n;
   }
+}
+
+inline Vec3 random_offset(RandomInputs& random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+// Checks that rays in packets have the hits of single ones to the bit, and returns how many hit.
+inline std::size_t check_same_hits(const std::vector<TestRay>& rays, const std::vector<TestHit>& single,
+                                   const std::vector<TestHit>& packet) {
+  std::ostringstream examples;
+  examples.precision(9);
+  std::size_t different = 0, hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits += single[i].primitive != BLOCK_EMPTY;
+    if (std::memcmp(&single[i], &packet[i], sizeof(TestHit)) == 0) continue;
+    if (++different > 3) continue;
+    const auto& r = rays[i];
+    examples << "\nray " << i << ": o " << r.origin.x << " " << r.origin.y << " " << r.origin.z << " d "
+             << r.direction.x << " " << r.direction.y << " " << r.direction.z << " single " << single[i].t
+             << " of " << single[i].primitive << " packet " << packet[i].t << " of " << packet[i].primitive;
+  }
+  INFO(different << " of " << rays.size() << " rays, " << hits << " hits" << examples.str());
+  CHECK(different == 0);
+  return hits;
 }
 
 // Rays of every kind that a tree can get wrong: random, along axes with +0 and -0, from vertices and split

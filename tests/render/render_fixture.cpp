@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
@@ -33,6 +34,27 @@ RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigne
   options.seed = seed;
   options.precision = precision;
   return render_scene(scene, test_device(), options);
+}
+
+void check_same_render(const RenderResult& a, const RenderResult& b) {
+  CHECK(a.picture.rgb == b.picture.rgb);
+  CHECK(a.statistics.rays == b.statistics.rays);
+  for (const auto& kind : fault_kinds)
+    CHECK(a.statistics.faults.*kind.count == b.statistics.faults.*kind.count);
+  CHECK(mean_luminance(a.picture) > 0);
+}
+
+Picture layer_of(const Picture& picture, const std::string& name) {
+  Picture layer{picture.width, picture.height, std::vector<float>(picture.rgb.size())};
+  int found = 0;
+  for (const auto& channel : picture.channels)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (channel.name != name + "." + "RGB"[c]) continue;
+      ++found;
+      for (std::size_t i = 0; i < channel.values.size(); ++i) layer.rgb[3 * i + c] = channel.values[i];
+    }
+  REQUIRE(found == 3);
+  return layer;
 }
 
 double mean_luminance(const Picture& picture) {

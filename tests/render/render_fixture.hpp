@@ -20,6 +20,13 @@ Scene shipped_scene(const std::string& name, int width, int height);
 RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigned seed = 1,
                          Precision precision = Precision::float32);
 
+/// Checks that two renders have the same picture to the bit, not a black one, by as many rays, with the same
+/// faults.
+void check_same_render(const RenderResult& a, const RenderResult& b);
+
+/// A layer that a picture has as channels.
+Picture layer_of(const Picture& picture, const std::string& name);
+
 /// The mean over all pixels of a picture's luminance.
 double mean_luminance(const Picture& picture);
 

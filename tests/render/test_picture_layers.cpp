@@ -81,20 +81,6 @@ Picture render_layers(Scene scene, Integrator integrator, int passes, bool layer
   return render_scene(scene, test_device(), options).picture;
 }
 
-/// One layer as a picture.
-Picture layer_of(const Picture& picture, const std::string& name) {
-  Picture layer{picture.width, picture.height, std::vector<float>(picture.rgb.size())};
-  int found = 0;
-  for (const auto& channel : picture.channels)
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (channel.name != name + "." + "RGB"[c]) continue;
-      ++found;
-      for (std::size_t i = 0; i < channel.values.size(); ++i) layer.rgb[3 * i + c] = channel.values[i];
-    }
-  REQUIRE(found == 3);
-  return layer;
-}
-
 float largest(const Picture& picture) { return *std::max_element(picture.rgb.begin(), picture.rgb.end()); }
 
 /// Relative, and absolute below 0.001.
