@@ -33,7 +33,7 @@ kernel void packets(global const KdNode *nodes, global const TriangleBlock *bloc
   uint cut = brute_force_closest(nodes, blocks, shapes, 0, first_shape, size, &arrays);
   if (cut > 0) atomic_add(cut_short, cut);
   for (uint k = size; k < RAYS; ++k)
-    if (u[k] != 42 || primitive[k] != HIT_NONE) *outside = 1;
+    if (!isnan(t[k]) || u[k] != 42 || primitive[k] != HIT_NONE) *outside = 1;
   for (uint k = 0; k < size; ++k) {
     Hit hit = {t[k], primitive[k], u[k], v[k], 0};
     store_hit(hits, first + k, blocks, hit);
@@ -167,6 +167,18 @@ TEST_CASE(
   }
   add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
   check_packets(input, shapes, random);
+}
+
+TEST_CASE("what is as far as what a ray has met before changes nothing") {
+  RandomInputs random(67);
+  auto [input, shapes] = random_spheres(random, 4, 0.5);
+  add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
+  const Traversal scene(input, shapes);
+  auto rays = hard_rays(scene, random, 8192);
+  const auto first = trace(scene, rays, 0).single;
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i].t_max = first[i].t;
+  const auto [single, packet, cut_short, outside] = trace(scene, rays, 0);
+  CHECK(check_same_hits(rays, single, packet) == 0);
 }
 
 TEST_CASE("a ray that is not finite changes nothing for the other fifteen") {
