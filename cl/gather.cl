@@ -170,13 +170,15 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
   }
 }
 
-// The cubes along one axis that can hold a photon within `radius` of x: *first bucket and their number, at
-// most n. The interval is widened by the rounding of its ends.
-INLINE uint gather_window(real x, real radius, float origin, float inverse_cell, uint n, uint *first) {
-  real reach = radius * (real)1.000001 + fabs(x) * (real)2.4e-7;
-  int low = grid_coordinate(x - reach, origin, inverse_cell), high = grid_coordinate(x + reach, origin, inverse_cell);
-  uint span = (uint)high - (uint)low;
-  *first = grid_wrap(low, n);
+// The cubes that can hold a photon within `reach` of `centre` along each axis: the *first bucket, and how many there are, at
+// most all of that axis. The interval is widened by the rounding of its ends. Six cubes at once take half the time of one
+// by one.
+INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
+  real4 x = (real4)(centre, 0), wider = (real4)(reach * (real)1.000001, 0) + fabs(x) * (real)2.4e-7;
+  real4 origin = convert_real4(grid.origin);
+  int8 cubes = convert_int8(GRID_COORDINATE((real8)(x - wider, x + wider), (real8)(origin, origin), grid.origin.w));
+  uint4 n = (uint4)(grid.nx, grid.ny, grid.nz, 1), low = as_uint4(cubes.lo), span = as_uint4(cubes.hi) - low;
+  *first = low & (n - 1);  // as grid_wrap()
   return span >= n ? n : span + 1;
 }
 
@@ -186,19 +188,16 @@ INLINE uint gather_window(real x, real radius, float origin, float inverse_cell,
 OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
                             real3 reach, float3 normal, real radius2, const MediumSegment *segment, Gathered *sum) {
   GatherLanes lanes = gather_lanes_empty();
-  uint i0, j0, k0;
-  uint ni = gather_window(centre.x, reach.x, grid.origin.x, grid.origin.w, grid.nx, &i0);
-  uint nj = gather_window(centre.y, reach.y, grid.origin.y, grid.origin.w, grid.ny, &j0);
-  uint nk = gather_window(centre.z, reach.z, grid.origin.z, grid.origin.w, grid.nz, &k0);
+  uint4 first, number = gather_window(grid, centre, reach, &first);
   // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
-  uint first_end = min(i0 + ni, grid.nx), wrapped = i0 + ni - first_end;
-  for (uint k = 0; k < nk; ++k) {
-    uint kk = k0 + k >= grid.nz ? k0 + k - grid.nz : k0 + k;
-    for (uint j = 0; j < nj; ++j) {
-      uint jj = j0 + j >= grid.ny ? j0 + j - grid.ny : j0 + j;
+  uint first_end = min(first.x + number.x, grid.nx), wrapped = first.x + number.x - first_end;
+  for (uint k = 0; k < number.z; ++k) {
+    uint kk = first.z + k >= grid.nz ? first.z + k - grid.nz : first.z + k;
+    for (uint j = 0; j < number.y; ++j) {
+      uint jj = first.y + j >= grid.ny ? first.y + j - grid.ny : first.y + j;
       global const uint *row = starts + grid.first_bucket + (kk * grid.ny + jj) * grid.nx;
       for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
-        uint begin = part == 0 ? row[i0] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
+        uint begin = part == 0 ? row[first.x] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && segment)
           gather_range_medium(sorted, begin, end, segment, radius2, sum);
         else

@@ -2,11 +2,14 @@
 #include "prelude.cl"
 #include "types.h"
 
-// The cube that holds coordinate x along one axis. Both the sort and the gather call this, and it must round
-// alike in both: hence no contraction, and one function.
+// The cube that holds coordinate x along one axis, before it becomes an int; of vectors that of each component. Both the
+// sort and the gather take this, and it must round alike in both: hence no contraction, and one expression. Beyond what
+// fits an int all is one cube: 128 is the distance between floats there.
+#define GRID_COORDINATE(x, origin, inverse_cell) \
+  floor(clamp(((x) - (origin)) * (inverse_cell), (real)-2147483648.0f, (real)(2147483648.0f - 128)))
+
 INLINE int grid_coordinate(real x, float origin, float inverse_cell) {
-  // Beyond what fits an int all is one cube. 128 is the distance between floats there.
-  return (int)floor(clamp((x - origin) * inverse_cell, (real)-2147483648.0f, (real)(2147483648.0f - 128)));
+  return (int)GRID_COORDINATE(x, origin, inverse_cell);
 }
 
 // x modulo n in [0, n) for any int x and n a power of two.
