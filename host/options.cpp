@@ -111,10 +111,11 @@ void add_device_options(CLI::App& app, Options& options, bool takes_several = fa
   app.add_option("--kernel-dir", options.kernel_dir, "read the kernels from here, not from the binary")
       ->check(expect("an existing folder", is_folder))
       ->type_name("DIR");
-  app.add_flag("!--no-cache", options.keep_kernels,
-               "compile all kernels anew and keep none; else what was\n"
-               "compiled is kept in $CAUSTICL_CACHE_DIR, by default\n"
-               "~/.cache/causticl, for the next run")
+  app.add_flag_callback(
+         "--no-cache", [&options] { options.keep_kernels = false; },
+         "compile all kernels anew and keep none; else what was\n"
+         "compiled is kept in $CAUSTICL_CACHE_DIR, by default\n"
+         "~/.cache/causticl, for the next run")
       ->disable_flag_override();
 }
 

@@ -146,9 +146,9 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
   clear_bar();
   std::string names;
   for (const auto& file : files) names += (names.empty() ? "" : ", ") + file;
-  std::fprintf(stream_, "causticl: wrote %s: %llu passes in %.1f s (%s)\n", names.c_str(),
-               static_cast<unsigned long long>(statistics.passes), statistics.seconds,
-               reason(statistics.stop));
+  std::fprintf(stream_, "causticl: wrote %s: %llu %s in %.1f s (%s)\n", names.c_str(),
+               static_cast<unsigned long long>(statistics.passes), statistics.passes == 1 ? "pass" : "passes",
+               statistics.seconds, reason(statistics.stop));
   if (statistics.error) {
     const PictureError& error = *statistics.error;
     std::fprintf(stream_, "causticl: error %s or less in %s of the pixels (noise alone %s, bias alone %s)",

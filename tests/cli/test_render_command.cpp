@@ -18,7 +18,7 @@ TEST_CASE("a render writes the file that the scene names") {
   const Image image = read_image(folder.path("cornell_box.png"), false);
   CHECK(image.width == 16);
   CHECK(image.height == 12);
-  CHECK_THAT(run.errors, Contains("causticl: wrote cornell_box.png: 1 passes in ") && EndsWith("(done)\n"));
+  CHECK_THAT(run.errors, Contains("causticl: wrote cornell_box.png: 1 pass in ") && EndsWith("(done)\n"));
 }
 
 TEST_CASE("a scene without a path names the file after itself") {
