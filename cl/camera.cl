@@ -1,7 +1,7 @@
 // Primary rays through a thin lens, for both camera forms of the scene format.
 #include "ray.cl"
 #include "effects.h"
-#include "rng.cl"
+#include "sobol.cl"
 #include "types.h"
 #include "warp.cl"
 
@@ -11,6 +11,18 @@ INLINE real2 camera_stratum(uint index, uint count, real2 u) {
   uint side = (uint)(sqrt((float)count) + 0.5f);
   if (side * side != count) return u;
   return ((real2)(index % side, index / side % side) + u) / side;
+}
+
+// The numbers of path `index` of the chunk, where every pixel has `samples` of them.
+INLINE PathSampler chunk_sampler(const Params *params, uint samples, uint index) {
+  return path_sampler(params->seed, params->pass, params->first_pixel + index / samples, index % samples, samples,
+                      params->sobol);
+}
+
+// Where in its pixel a path begins, from the numbers of DIM_FILM: independent ones are spread over `strata`
+// strata, of which this is number `stratum`.
+INLINE real2 place_in_pixel(const PathSampler *sampler, real4 film, uint stratum, uint strata) {
+  return sampler->sobol != 0 ? film.xy : camera_stratum(stratum, strata, film.xy);
 }
 
 // The ray through the film position (x, y) in pixels from the top left; `lens` is uniform in the unit square.

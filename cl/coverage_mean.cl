@@ -9,7 +9,7 @@
 #define COVERAGE_COUNT_MASK 127u
 
 // A pixel whose first so many probes found full discs is probed once in so many passes: an odd number, so that it is the turn
-// of each of its strata.
+// of each of its samples.
 #define COVERAGE_FIRST_PROBES 6u
 #define COVERAGE_RARELY 7u
 

@@ -1,4 +1,5 @@
 // The film: exact running sums of radiance estimates.
+#include "halves.cl"
 #include "layers.cl"
 #include "prelude.cl"
 #include "types.h"
@@ -16,10 +17,9 @@ INLINE void sum_add(float *hi, float *lo, float x) {
 
 INLINE float luminance(float red, float green, float blue) { return 0.2126f * red + 0.7152f * green + 0.0722f * blue; }
 
-// The sign of the luminance of a pixel's estimate number `index` in FilmPixel.alternating, by Thue and Morse: of two
-// estimates that follow each other one has either sign, and what drifts, or comes again every two or four passes (as the
-// strata of a pixel in path tracing), cancels over eight.
-INLINE float sign_of_estimate(uint index) { return popcount(index) & 1u ? -1.0f : 1.0f; }
+// The sign of the luminance of a pixel's estimate number `index` in FilmPixel.alternating. After an estimate that was
+// left out, signs are no longer those of the halves, and tell an error as large as that of independent numbers.
+INLINE float sign_of_estimate(uint index) { return half_of_passes(index) ? -1.0f : 1.0f; }
 
 // Adds the radiance estimate of pass `pass` to a pixel. One that is not finite, or with which the sum would not be, is
 // left out of the mean, and counted. `blur` is what the estimate's luminance owes to the size of its kernel, as far as
@@ -55,7 +55,7 @@ INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
   }
   float alternating = pixel->alternating + sign_of_estimate(index) * added;
   pixel->alternating = clamp(alternating, -FLT_MAX, FLT_MAX);
-  if (isfinite(blur)) pixel->blur[pass & 1u] += (float)blur;
+  if (isfinite(blur)) pixel->blur[half_of_passes(pass)] += (float)blur;
   return true;
 }
 

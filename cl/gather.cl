@@ -170,9 +170,9 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
   }
 }
 
-// The cubes that can hold a photon within `reach` of `centre` along each axis: the *first bucket, and how many there are, at
-// most all of that axis. The interval is widened by the rounding of its ends. Six cubes at once take half the time of one
-// by one.
+// The cubes that can hold a photon within `reach` of `centre` along each axis: the *first bucket, and how many there are,
+// at most all of that axis. The interval is widened by the rounding of its ends. Six cubes at once take half the time of
+// one by one.
 INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
   real4 x = (real4)(centre, 0), wider = (real4)(reach * (real)1.000001, 0) + fabs(x) * (real)2.4e-7;
   real4 origin = convert_real4(grid.origin);

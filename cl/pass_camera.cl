@@ -10,17 +10,12 @@
 #include "visible_point.cl"
 #include "work_group.cl"
 
-INLINE RandomStream path_stream(const Params *params, uint pixel, uint sample) {
-  RandomStream stream = {params->seed, params->pass, pixel * params->visible_points + sample};
-  return stream;
-}
-
 // The ray with which path `index` of the chunk begins.
 INLINE Ray path_ray(const Params *params, uint index) {
-  uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
-  real4 film = random4(path_stream(params, pixel, sample), DIM_FILM);
-  real2 position = (real2)(pixel % params->width, pixel / params->width) +
-                   camera_stratum(sample, params->visible_points, film.xy);
+  PathSampler sampler = chunk_sampler(params, params->visible_points, index);
+  real4 film = path_random4(&sampler, DIM_FILM);
+  real2 position = (real2)(sampler.pixel % params->width, sampler.pixel / params->width) +
+                   place_in_pixel(&sampler, film, index % params->visible_points, params->visible_points);
   return camera_ray(&params->camera, params->width, params->height, position, film.zw);
 }
 
@@ -33,8 +28,9 @@ INLINE Ray path_ray(const Params *params, uint index) {
 // meets, in either case. Returns the number of rays traced.
 OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
                          volatile global Counters *counters, global const SppmPixel *pixels) {
-  uint pixel = params->first_pixel + index / params->visible_points, sample = index % params->visible_points;
-  RandomStream stream = path_stream(params, pixel, sample);
+  PathSampler sampler = chunk_sampler(params, params->visible_points, index);
+  RandomStream stream = sampler.stream;
+  uint pixel = sampler.pixel, sample = index % params->visible_points;
   // Where the visible point will be.
   global const FirstHit *first = (global const FirstHit *)visible_points + index;
   Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
@@ -58,7 +54,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance, begin, length;
       real3 before = throughput;
-      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
+      if (medium_flight(&scene->medium, hit.t, path_random_at(&sampler, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
         if (depth == params->max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
         point.normal = IN_MEDIUM | receiver_mark(history);
@@ -66,7 +62,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
         if (shadow_rays)
           radiance_add(&radiance, history,
                        direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
-                                           random_at(stream, depth, DIM_LIGHT), false, &rays, counters));
+                                           path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
         real3 weight = medium_segment(&scene->medium, before, hit.t, distance, params->segment, &begin, &length);
         segment = length * ray.direction;
         vstore3(ray.origin + begin * ray.direction, 0, point.position);
@@ -96,7 +92,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     if (HAS(EFFECT_DISPERSION))
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
-    real4 random = random_at(stream, depth, DIM_BSDF);
+    real4 random = path_random_at(&sampler, depth, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
       counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
                            params->max_depth, counted, &radiance, &rays, counters);
@@ -118,7 +114,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       if (shadow_rays)
         radiance_add(&radiance, history,
                      direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
-                                  random_at(stream, depth, DIM_LIGHT), false, &rays, counters));
+                                  path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
       vstore3(surface.position, 0, point.position);
       vstore3(weight, 0, point.weight);
       break;
@@ -131,7 +127,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
                    direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
-                                      random_at(stream, depth, DIM_LIGHT), &rays, counters));
+                                      path_random_at(&sampler, depth, DIM_LIGHT), &rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     bsdf_pdf = weigh_lights ? next.pdf : 0;

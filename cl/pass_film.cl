@@ -12,6 +12,10 @@
 // pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
 #define NEIGHBOURS_SHARE 0.02f
 
+// Pixels to each side over which the noise of halves is compared with that of passes. Seven times seven tell a variance
+// to a fifth.
+#define HALVES_REACH 3
+
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
 // the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of shadows,
 // the band that is wrong is as wide as the radius, and this is 2. Most of what is wrong lies along edges.
@@ -30,39 +34,66 @@ INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes) {
   return pixel->spread / (fmax(estimates, 1.0f) * fmax(estimates - 1, 1.0f));
 }
 
-// The blur of the window around (x, y), as far as it lies within the picture: of even and odd passes the mean, and half
-// of what the even ones have more; none where all lies outside.
+// Half of the difference between the means of one half of the passes and of the other.
+INLINE float half_difference(global const FilmPixel *pixel, uint passes) {
+  uint estimates = passes - pixel->left_out;
+  float each = 1 / fmax((float)estimates, 1.0f);
+  float mean = luminance(pixel->sum[0], pixel->sum[1], pixel->sum[2]) * each;
+  float unpaired = estimates & 1u ? sign_of_estimate(estimates - 1) * mean : 0.0f;
+  return (pixel->alternating - unpaired) * each;
+}
+
+// The variance of means around (x, y) over what it were if a pixel's estimates were independent of each other. The
+// difference of halves tells it, since these are independent, but only where it is not that of the pixels beside.
+INLINE float share_of_variance(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes) {
+  uint left, top, right = window_of(x, width, HALVES_REACH, &left), bottom = window_of(y, height, HALVES_REACH, &top);
+  float squares = 0, variances = 0;
+  for (uint j = top; j < bottom; ++j)
+    for (uint i = left; i < right; ++i) {
+      global const FilmPixel *pixel = film + j * width + i;
+      float difference = half_difference(pixel, passes);
+      squares += difference * difference;
+      variances += variance_of_mean(pixel, passes);
+    }
+  float share = squares / variances;
+  return variances > 0 && isfinite(share) ? share : 1.0f;
+}
+
+// The blur of the window around (x, y), as far as it lies within the picture: of the halves of the passes the mean, and
+// half of what the first has more; none where all lies outside.
 typedef struct {
-  float mean, half_difference;
+  float mean, deviation;
   uint pixels;
 } Blur;
 INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, int x, int y, uint passes) {
-  float even = 0, odd = 0;
+  float first = 0, second = 0;
   Blur blur = {0, 0, 0};
   for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
     for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++blur.pixels) {
-      even += film[j * width + i].blur[0];
-      odd += film[j * width + i].blur[1];
+      first += film[j * width + i].blur[0];
+      second += film[j * width + i].blur[1];
     }
   if (blur.pixels == 0) return blur;
-  even /= (float)blur.pixels * ((passes + 1) / 2);
-  odd /= (float)blur.pixels * max(passes / 2, 1u);
-  blur.mean = (even + odd) / 2;
-  blur.half_difference = (even - odd) / 2;
+  first /= (float)blur.pixels * max(passes_of_half(passes, 0u), 1u);
+  second /= (float)blur.pixels * max(passes_of_half(passes, 1u), 1u);
+  blur.mean = (first + second) / 2;
+  blur.deviation = (first - second) / 2;
   return blur;
 }
 
-// Error of `pixel` after `passes` passes, in luminance.
+// Error of `pixel` after `passes` passes, in luminance. `even` tells that a pixel's estimates are more even than
+// independent ones (sobol.cl), and owe nothing to what other pixels share.
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
-//          schedule their radii follow. What the pixel's own passes say of it is right on average, but in few passes it is
-//          itself noisy; pooled_noise takes the mean of variances around, which is smooth, but too large for most pixels
-//          beside edges and glints.
-//   bias:  its absolute value, from the blur around the pixel, once of the even passes and once of the odd ones. Both have
-//          noises of their own, so that half their difference is as noisy as their mean: the square of the first, over the
-//          pixel's window and the eight beside it, is what the square of the second owes to noise.
-//   drawn: half of the difference between the means of one half of the passes and of the other. It is made of the same
-//          estimates as the error of their mean, but for signs, and has its variance and kurtosis.
-INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes) {
+//          schedule their radii follow, times share_of_variance() where they are even. What the pixel's own passes say of
+//          it is right on average, but in few passes it is itself noisy; pooled_noise takes the mean of variances around,
+//          which is smooth, but too large for most pixels beside edges and glints.
+//   bias:  its absolute value, from the blur around the pixel, once of each half of the passes. Both have noises of their
+//          own, so that half their difference is as noisy as their mean: the square of the first, over the pixel's window
+//          and the eight beside it, is what the square of the second owes to noise.
+//   drawn: half_difference(). It is made of the same estimates as the error of their mean, but for signs, and has its
+//          variance and kurtosis.
+INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes,
+                              bool even) {
   uint x = pixel % width, y = pixel / width, left, top;
   uint right = window_of(x, width, REACH, &left), bottom = window_of(y, height, REACH, &top);
   float pooled = 0;
@@ -74,25 +105,24 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
       Blur beside = blur_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), passes);
-      noise += beside.half_difference * beside.half_difference;
+      noise += beside.deviation * beside.deviation;
       windows += beside.pixels > 0 ? 1.0f : 0.0f;
     }
 
   global const FilmPixel *p = film + pixel;
   PixelError error;
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
-  error.noise = sqrt((1 - NEIGHBOURS_SHARE) * variance_of_mean(p, passes) + NEIGHBOURS_SHARE * pooled);
-  error.pooled_noise = sqrt(pooled);
+  float share = even ? share_of_variance(film, width, height, x, y, passes) : 1.0f;
+  error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * variance_of_mean(p, passes) + NEIGHBOURS_SHARE * pooled));
+  error.pooled_noise = sqrt(share * pooled);
   error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f));
-  uint estimates = passes - p->left_out;
-  float unpaired = estimates & 1u ? sign_of_estimate(estimates - 1) * error.luminance : 0.0f;
-  error.drawn = (p->alternating - unpaired) / fmax((float)estimates, 1.0f);
+  error.drawn = half_difference(p, passes);
   return error;
 }
 
 // errors[i] = error of pixel i * stride, for i < count.
 kernel void pixel_errors(global const FilmPixel *film, global PixelError *errors, uint width, uint height,
-                         uint passes, uint stride, uint count) {
+                         uint passes, uint stride, uint count, uint even) {
   uint i = get_global_id(0);
-  if (i < count) errors[i] = pixel_error(film, width, height, i * stride, passes);
+  if (i < count) errors[i] = pixel_error(film, width, height, i * stride, passes, even != 0);
 }

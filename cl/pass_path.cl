@@ -5,24 +5,25 @@
 #include "unlikely_lobe.cl"
 #include "work_group.cl"
 
-// The ray with which path `index` of the chunk, and of its pixel, begins. Four consecutive samples stratify a pixel
+// The ray with which path `index` of the chunk begins. Of independent numbers four consecutive samples stratify a pixel
 // 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts nothing.
 INLINE Ray path_ray(const Params *params, uint index) {
-  uint pixel = params->first_pixel + index;
-  RandomStream stream = {params->seed, params->pass, pixel};
-  real4 numbers = random4(stream, DIM_FILM);
+  PathSampler sampler = chunk_sampler(params, 1u, index);
+  uint pixel = sampler.pixel;
+  real4 film = path_random4(&sampler, DIM_FILM);
   uint stratum = (params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u;
   real2 position =
-      (real2)(pixel % params->width, pixel / params->width) + camera_stratum(stratum, 4u, numbers.xy);
-  return camera_ray(&params->camera, params->width, params->height, position, numbers.zw);
+      (real2)(pixel % params->width, pixel / params->width) + place_in_pixel(&sampler, film, stratum, 4u);
+  return camera_ray(&params->camera, params->width, params->height, position, film.zw);
 }
 
 #include "first_hits.cl"
 
 // Radiance along one camera path. Paths scatter at most params.max_depth times. `first` is where its first hit is kept,
 // if it has been found.
-OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *first, RandomStream stream,
+OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *first, const PathSampler *sampler,
                            uint max_depth, Radiance *result, uint *rays, volatile global Counters *counters) {
+  RandomStream stream = sampler->stream;
   real3 throughput = (real3)(1, 1, 1);
   Radiance radiance = radiance_none();
   uint history = HISTORY_NO_RECEIVER;
@@ -37,7 +38,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance;
-      if (medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
+      if (medium_flight(&scene->medium, hit.t, path_random_at(sampler, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
         if (depth == max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
         throughput *= scene->medium.scattering;
@@ -45,8 +46,8 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
         if (scene->emitter_count > 0)
           radiance_add(&radiance, history,
                        direct_light_medium(scene, position, ray.direction, throughput,
-                                           random_at(stream, depth, DIM_LIGHT), true, rays, counters));
-        real4 random = random_at(stream, depth, DIM_BSDF);
+                                           path_random_at(sampler, depth, DIM_LIGHT), true, rays, counters));
+        real4 random = path_random_at(sampler, depth, DIM_BSDF);
         if (!path_survives(&throughput, depth, random.w)) break;
         real3 direction = phase_sample(scene->medium.g, ray.direction, random.xy);
         bsdf_pdf = phase_density(scene->medium.g, dot(ray.direction, direction));
@@ -80,7 +81,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     if (HAS(EFFECT_DISPERSION))
       disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
-    real4 random = random_at(stream, depth, DIM_BSDF);
+    real4 random = path_random_at(sampler, depth, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
       counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
                            max_depth, counted, &radiance, rays, counters);
@@ -92,13 +93,13 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
                    direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,
-                                random_at(stream, depth, DIM_LIGHT), true, rays, counters));
+                                path_random_at(sampler, depth, DIM_LIGHT), true, rays, counters));
     }
     if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
                    direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
-                                      random_at(stream, depth, DIM_LIGHT), rays, counters));
+                                      path_random_at(sampler, depth, DIM_LIGHT), rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
@@ -116,11 +117,11 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
 INLINE void sample_pixel(const Scene *scene, const Params *params, uint index, global FilmPixel *film,
                          global const FirstHit *first_hits, uint *rays, volatile global Counters *counters) {
   uint pixel = params->first_pixel + index;
-  RandomStream stream = {params->seed, params->pass, pixel};
+  PathSampler sampler = chunk_sampler(params, 1u, index);
   global const FirstHit *first = first_hits + index;
   Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
   Radiance radiance;
-  path_radiance(scene, ray, first, stream, params->max_depth, &radiance, rays, counters);
+  path_radiance(scene, ray, first, &sampler, params->max_depth, &radiance, rays, counters);
   film_add_radiance(film, pixel, params->width * params->height, &radiance, 0, params->pass, counters);
 }
 

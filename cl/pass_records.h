@@ -19,7 +19,7 @@ typedef struct {
   uint first_pixel;          // the chunk that this launch works on: pixels [first_pixel, first_pixel +
   uint pixel_count;          //   pixel_count) in row order from the top left
   uint seed, pass;
-  uint visible_points;       // per pixel per pass; a square number is stratified
+  uint visible_points;       // per pixel per pass
   uint max_depth;            // longest path in scattering surface hits
   uint plane_count;          // infinite planes, the first of the shapes
   uint emitter_count;
@@ -42,9 +42,10 @@ typedef struct {
   uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
   uint photon_role;          // PHOTONS_*
   uint photon_copies;        // of each seed
+  uint sobol;                // 1 where the numbers of camera paths are those of sobol.cl, 0 where they are independent
   uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
 } Params;
-CHECK_SIZE(Params, 240);
+CHECK_SIZE(Params, 256);
 
 // Items of a work-group, at most: kernels keep a number for each in local memory.
 #define LARGEST_WORK_GROUP 256u

@@ -49,16 +49,26 @@ INLINE uint4 mutation(RandomStream stream, uint dimension) {
                  fresh ? bits.z : (uint)(int)(z * z * z * largest), fresh ? bits.w : (uint)(int)(w * w * w * largest));
 }
 
-// Four independent uniform numbers in [0, 1) for a dimension of dims.h. 24 bits each, so 1 never appears.
-INLINE real4 random4(RandomStream stream, uint dimension) {
-  uint4 bits = pcg4d((uint4)(stream.path, stream.pass, dimension, stream.seed));
-  if (HAS(EFFECT_GUIDED_PHOTONS)) bits += mutation(stream, dimension) * (uint4)(stream.copy != 0 ? 1u : 0u);
+// Uniform numbers in [0, 1) of so many bits: 24 of each, so 1 never appears.
+INLINE real4 uniform4(uint4 bits) {
   const real unit = (real)5.9604644775390625e-8;
   return (real4)((int)(bits.x >> 8u) * unit, (int)(bits.y >> 8u) * unit, (int)(bits.z >> 8u) * unit,
                  (int)(bits.w >> 8u) * unit);
 }
 
+// The dimension of the vertex with index `depth` (from 0) of a path.
+INLINE uint dimension_at(uint depth, uint dimension) {
+  return DIM_BOUNCE_FIRST + depth * DIM_BOUNCE_STRIDE + dimension;
+}
+
+// Four independent uniform numbers in [0, 1) for a dimension of dims.h.
+INLINE real4 random4(RandomStream stream, uint dimension) {
+  uint4 bits = pcg4d((uint4)(stream.path, stream.pass, dimension, stream.seed));
+  if (HAS(EFFECT_GUIDED_PHOTONS)) bits += mutation(stream, dimension) * (uint4)(stream.copy != 0 ? 1u : 0u);
+  return uniform4(bits);
+}
+
 // The same for the vertex with index `depth` (from 0) of a path.
 INLINE real4 random_at(RandomStream stream, uint depth, uint dimension) {
-  return random4(stream, DIM_BOUNCE_FIRST + depth * DIM_BOUNCE_STRIDE + dimension);
+  return random4(stream, dimension_at(depth, dimension));
 }

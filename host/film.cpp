@@ -19,10 +19,11 @@ float mean_of(float sum, float low, double scale) {
 
 }  // namespace
 
-Film::Film(Device& device, Programs& programs, int width, int height)
+Film::Film(Device& device, Programs& programs, int width, int height, bool even)
     : device_(device),
       width_(width),
       height_(height),
+      even_(even),
       programs_(programs),
       pixels_(device.buffer(pixels() * bytes_per_pixel(), "film")) {
   device_.clear(pixels_, pixels() * bytes_per_pixel());
@@ -85,7 +86,8 @@ std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
   }
   if (!pixel_errors_()) pixel_errors_ = programs_.kernel("film", "pixel_errors");
   set_arguments(pixel_errors_, pixels_, errors_, static_cast<cl_uint>(width_), static_cast<cl_uint>(height_),
-                static_cast<cl_uint>(passes), static_cast<cl_uint>(stride), static_cast<cl_uint>(count));
+                static_cast<cl_uint>(passes), static_cast<cl_uint>(stride), static_cast<cl_uint>(count),
+                static_cast<cl_uint>(even_));
   device_.launch_pass(pixel_errors_, count);
   return device_.download<PixelError>(errors_, count);
 }

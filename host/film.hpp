@@ -15,8 +15,8 @@ std::vector<Channel> layer_channels(std::size_t pixels);
 
 class Film {
  public:
-  /// All black. With layers where the programs were built for them.
-  Film(Device& device, Programs& programs, int width, int height);
+  /// All black. With layers where the programs were built for them. `even` is that of cl/pass_film.cl.
+  Film(Device& device, Programs& programs, int width, int height, bool even);
 
   const cl::Buffer& buffer() const { return pixels_; }
 
@@ -42,6 +42,7 @@ class Film {
  private:
   Device& device_;
   int width_, height_;
+  bool even_;
   Programs& programs_;
   cl::Buffer pixels_, errors_;
   std::size_t errors_capacity_ = 0;

@@ -27,6 +27,7 @@ inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, 
   params.emitter_count = device_scene.emitter_count;
   params.delta_lights = device_scene.delta_lights;
   set_emission(params, device_scene);
+  params.sobol = scene.renderer.sampler == Sampler::sobol;
   params.emission_met = has_visible_light(scene);
   const auto to_float = [](double x) { return static_cast<float>(x); };
   const Vec3 scattering = scene.medium.scattering, extinction = scene.medium.absorption + scattering;

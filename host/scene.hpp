@@ -90,6 +90,7 @@ struct CameraSpec {
 
 enum class Integrator { sppm, pt };
 enum class Schedule { pixel, global, geometric };
+enum class Sampler { sobol, independent };
 enum class DirectLight { shadow_rays, photons };
 
 struct RendererSpec {
@@ -105,6 +106,7 @@ struct RendererSpec {
   bool guided_photons = false;            // sppm: those that land where the camera sees are copied
   double radius_decay = 0.95;             // Schedule::geometric
   Schedule schedule = Schedule::pixel;
+  Sampler sampler = Sampler::sobol;                     // of camera paths
   DirectLight direct_light = DirectLight::shadow_rays;  // key "direct_light": "shadow_rays" | "photons"
 };
 

@@ -9,9 +9,9 @@ namespace {
 constexpr std::int64_t count_limit = 1 << 30;
 
 const std::vector<std::string> renderer_keys{
-    "type",           "sample",          "view_point_sample", "photon_sample",      "rounds",    "radius",
-    "radius_decay",   "alpha",           "schedule",          "direct_light",       "light_pos", "light_r",
-    "light_radiance", "indirect_radius", "guided_photons",    "boundary_correction"};
+    "type",           "sample",          "view_point_sample", "photon_sample",       "rounds",    "radius",
+    "radius_decay",   "alpha",           "schedule",          "direct_light",        "light_pos", "light_r",
+    "light_radiance", "indirect_radius", "guided_photons",    "boundary_correction", "sampler"};
 
 }  // namespace
 
@@ -36,6 +36,8 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
       json.number("radius_decay", renderer.radius_decay, {1e-6, 1, "a number from 1e-6 to 1"});
   if (const auto schedule = json.find("schedule"))
     renderer.schedule = static_cast<Schedule>(schedule->choice({"pixel", "global", "geometric"}));
+  if (const auto sampler = json.find("sampler"))
+    renderer.sampler = static_cast<Sampler>(sampler->choice({"sobol", "independent"}));
   if (const auto direct_light = json.find("direct_light"))
     renderer.direct_light = static_cast<DirectLight>(direct_light->choice({"shadow_rays", "photons"}));
   if (json.has("radius_decay") && renderer.schedule != Schedule::geometric)

@@ -147,6 +147,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
     if (r.guided_photons) text << ", guided photons";
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }
+  if (r.sampler == Sampler::independent) text << ", independent numbers";
   text << "; at most " << count(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";
 }
 

@@ -23,6 +23,15 @@ KernelOptions with_rays(KernelOptions kernels, RayChoice wanted, const Scene& sc
   return kernels;
 }
 
+/// Whether a pixel's estimates are more even than independent ones, and owe nothing to what pixels share in a
+/// pass: photons, its time, its wavelengths.
+bool even_and_apart(const Scene& scene, const std::vector<std::string>& passes) {
+  return scene.renderer.sampler == Sampler::sobol && !has_motion(scene) &&
+         std::none_of(passes.begin(), passes.end(), [](const auto& pass) { return pass == "photon"; }) &&
+         std::none_of(scene.materials.begin(), scene.materials.end(),
+                      [](const MaterialSpec& material) { return material.dispersion > 0; });
+}
+
 }  // namespace
 
 RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
@@ -32,7 +41,7 @@ RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& k
       kept_before(on.kept_programs()),
       programs(on, with_rays(kernels, rays, what, on), passes),
       scene(upload_scene(what, on, threads, kernels.triangle_test)),
-      film(on, programs, what.width, what.height) {}
+      film(on, programs, what.width, what.height, even_and_apart(what, passes)) {}
 
 std::map<std::string, KernelTime> RenderDevice::kernel_times() const {
   auto times = device.kernel_times();

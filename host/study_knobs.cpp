@@ -23,6 +23,8 @@ const char* name_of(Schedule schedule) {
   return schedule == Schedule::pixel ? "pixel" : schedule == Schedule::global ? "global" : "geometric";
 }
 
+const char* name_of(Sampler sampler) { return sampler == Sampler::sobol ? "sobol" : "independent"; }
+
 /// Every image texture inside materials, as keys joined by dots: those have a filter.
 void find_filters(const JsonValue& value, const std::string& path, bool in_material,
                   std::vector<std::string>& keys) {
@@ -164,6 +166,14 @@ const std::vector<Knob>& study_knobs() {
        [](Context c) {
          return overrides("renderer.view_point_sample", std::to_string(c.scene.renderer.visible_points),
                           {"1", "16"});
+       }},
+      {"sampler", "Numbers of camera paths", "",
+       "A pixel's samples can be spread evenly over where they may fall, by Sobol's sequence, or be "
+       "independent "
+       "of each other.",
+       false, [](Context c) { return std::string(name_of(c.scene.renderer.sampler)); },
+       [](Context c) {
+         return overrides("renderer.sampler", name_of(c.scene.renderer.sampler), {"sobol", "independent"});
        }},
       {"max_depth", "Longest path", "surface hits",
        "Shorter paths are faster and lose the light that would have come after more bounces: that error "

@@ -85,7 +85,7 @@ const ideal_slopes = (settings, by) => {
     const mse = path_traced ? '−1' : '−2/3';
     slopes.push({x: first.x, y: first.y, slope: path_traced ? -1 / 2 : -1 / 3,
                  name: `theory: MSE falls with slope ${mse}, its root with ${path_traced ? '−1/2' : '−1/3'}` +
-                       (path_traced ? ' (path tracing)' : ' (photon mapping)')});
+                       (path_traced ? ' (path tracing, independent samples)' : ' (photon mapping)')});
   }
   return slopes;
 };
@@ -178,7 +178,7 @@ const show_method = () => {
     '90% of pixels within: the difference in luminance over the luminance of the reference (at least a tenth of its mean), which ' +
     '90% of the pixels stay under.',
     'Slope: how the logarithm of the MSE, the square of the relative RMSE, falls with the logarithm of the passes: −1 for noise that ' +
-    'independent passes average out, −2/3 for photon mapping whose radius shrinks at the best rate (alpha 2/3).',
+    'independent passes average out, steeper where samples are even, −2/3 for photon mapping whose radius shrinks at the best rate (alpha 2/3).',
     `Each setting was rendered for ${digits(study.run_seconds)} s of passes with up to ${study.seeds} seeds or more, as the budget allowed; ` +
     'curves are the means over seeds. What was left of the budget let the most promising settings go on for longer, with one seed. ' +
     'Kernels were compiled before the clock started.',

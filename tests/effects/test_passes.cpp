@@ -70,6 +70,7 @@ TEST_CASE("no photon is traced where none could land") {
       material.color = {0, 0, 0};
     else
       material.kind = MaterialSpec::Kind::mirror;
+  scene.width = 64, scene.height = 48;  // so that some pixels see the lamp
   check_no_photons(scene, "no surface is diffuse");
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("the film's spread, blur and alternating sum equal two-pass sums of it
       finite.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
       alternating += minus ? -finite.back() : finite.back();
       sum += finite.back();
-      blur[n % 2] += s.w;
+      blur[std::popcount(n) % 2] += s.w;
     }
     const double mean = sum / static_cast<double>(finite.size());
     for (const double value : finite) spread += (value - mean) * (value - mean);

@@ -11,13 +11,13 @@ using namespace causticl;
 namespace {
 
 std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint width, uint passes,
-                                      uint stride) {
+                                      uint stride, bool even = false) {
   auto program = build_test_program("#include \"pass_film.cl\"\n");
   auto pixels = test_device().upload(film, "film");
   const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
   auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
   run_kernel(program, "pixel_errors", count, pixels, errors, width, static_cast<uint>(film.size()) / width,
-             passes, stride, count);
+             passes, stride, count, uint(even));
   return test_device().download<PixelError>(errors, count);
 }
 
@@ -25,12 +25,13 @@ std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint w
 struct Oracle {
   double noise, pooled_noise, bias, drawn;
 };
-Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes) {
+Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes, bool even_estimates) {
   const int height = static_cast<int>(film.size()) / width;
+  int reach = 1;
   const auto over_window = [&](int x_of, int y_of, auto add) {
     int count = 0;
-    for (int j = std::max(0, y_of - 1); j <= std::min(height - 1, y_of + 1); ++j)
-      for (int i = std::max(0, x_of - 1); i <= std::min(width - 1, x_of + 1); ++i, ++count)
+    for (int j = std::max(0, y_of - reach); j <= std::min(height - 1, y_of + reach); ++j)
+      for (int i = std::max(0, x_of - reach); i <= std::min(width - 1, x_of + reach); ++i, ++count)
         add(film[static_cast<std::size_t>(j) * width + i]);
     return static_cast<double>(count);
   };
@@ -40,29 +41,64 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   };
   double variance = 0;
   const double pixels = over_window(x, y, [&](const FilmPixel& p) { variance += variance_of(p); });
+  int in_half[2] = {0, 0};
+  for (uint n = 0; n < passes; ++n) ++in_half[std::popcount(n) % 2];
   double noise = 0, square = 0;
   int windows = 0;
   for (int j = y - 3; j <= y + 3; j += 3)
     for (int i = x - 3; i <= x + 3; i += 3) {
-      double even = 0, odd = 0;
+      double first = 0, second = 0;
       const double count = over_window(i, j, [&](const FilmPixel& p) {
-        even += p.blur[0] / ((passes + 1) / 2);
-        odd += p.blur[1] / std::max(passes / 2, 1u);
+        first += p.blur[0] / std::max(in_half[0], 1);
+        second += p.blur[1] / std::max(in_half[1], 1);
       });
       if (count == 0) continue;
       ++windows;
-      noise += std::pow((even - odd) / (2 * count), 2);
-      if (i == x && j == y) square = std::pow((even + odd) / (2 * count), 2);
+      noise += std::pow((first - second) / (2 * count), 2);
+      if (i == x && j == y) square = std::pow((first + second) / (2 * count), 2);
     }
+  const auto drawn_of = [&](const FilmPixel& p) {
+    const double n = std::max(1.0, static_cast<double>(passes) - p.left_out);
+    // By the number of estimates: one more with plus than with minus, or one less, or none.
+    int plus = 0;
+    for (uint k = 0; k < passes - p.left_out; ++k) plus += std::popcount(k) % 2 ? -1 : 1;
+    const double luminance = (0.2126 * p.sum[0] + 0.7152 * p.sum[1] + 0.0722 * p.sum[2]) / n;
+    return (p.alternating - plus * luminance) / n;
+  };
   const FilmPixel& own = film[static_cast<std::size_t>(y) * width + x];
-  const double n = std::max(1.0, static_cast<double>(passes) - own.left_out);
-  // By the number of estimates: one more with plus than with minus, or one less, or none.
-  int plus = 0;
-  for (uint k = 0; k < passes - own.left_out; ++k) plus += std::popcount(k) % 2 ? -1 : 1;
-  const double luminance = (0.2126 * own.sum[0] + 0.7152 * own.sum[1] + 0.0722 * own.sum[2]) / n;
-  return {std::sqrt(0.98 * variance_of(own) + 0.02 * variance / pixels), std::sqrt(variance / pixels),
-          2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)),
-          (own.alternating - plus * luminance) / n};
+  double share = 1;
+  if (even_estimates) {
+    double squares = 0, variances = 0;
+    reach = 3;
+    over_window(x, y, [&](const FilmPixel& p) {
+      squares += std::pow(drawn_of(p), 2);
+      variances += variance_of(p);
+    });
+    share = squares / variances;
+  }
+  return {std::sqrt(share * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
+          std::sqrt(share * variance / pixels), 2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)),
+          drawn_of(own)};
+}
+
+/// The film of pixels that have each had `passes` estimates of luminance (x), with what their kernel blurs of
+/// it (y).
+std::vector<FilmPixel> film_of(const std::vector<float2>& samples, uint passes) {
+  auto program = build_test_program(R"(
+#include "film.cl"
+kernel void add_samples(global const float2 *samples, global FilmPixel *film, volatile global Counters *counters,
+                        uint pixels, uint passes) {
+  uint i = get_global_id(0);
+  if (i >= pixels) return;
+  for (uint n = 0; n < passes; ++n) film_add(film + i, (real3)samples[i * passes + n].x, samples[i * passes + n].y, n, counters);
+}
+)");
+  const uint pixels = static_cast<uint>(samples.size()) / passes;
+  auto in = test_device().upload(samples, "samples");
+  auto film = test_device().upload(std::vector<FilmPixel>(pixels), "film");
+  auto counters = test_device().upload(std::vector<Counters>(1), "counters");
+  run_kernel(program, "add_samples", pixels, in, film, counters, pixels, passes);
+  return test_device().download<FilmPixel>(film, pixels);
 }
 
 double normal(RandomInputs& random) { return std::normal_distribution<double>()(random.engine); }
@@ -77,19 +113,19 @@ TEST_CASE("errors of pixels equal those in double precision, at borders too") {
     for (int c = 0; c < 3; ++c) pixel.sum[c] = static_cast<float>(random.uniform(0, 40));
     pixel.left_out = random.uniform() < 0.1 ? static_cast<uint>(random.uniform(1, 21)) : 0;
     pixel.spread = static_cast<float>(random.uniform(0, 3));
-    // Passes of even and odd number agree to the noise of what is beside, or do not.
+    // The halves of the passes agree to the noise of what is beside, or do not.
     const double blur = random.uniform(0, 4);
     for (float& sum : pixel.blur) sum = static_cast<float>(blur + random.uniform(-1, 1));
     pixel.alternating = static_cast<float>(random.uniform(-9, 9));
   }
   uint biased = 0;
-  for (const uint stride : {1u, 5u}) {
-    const auto errors = device_errors(film, width, passes, stride);
+  for (const auto& [stride, even] : {std::pair{1u, false}, {5u, false}, {1u, true}}) {
+    const auto errors = device_errors(film, width, passes, stride, even);
     REQUIRE(errors.size() == (film.size() + stride - 1) / stride);
     for (uint k = 0; k < errors.size(); ++k) {
       const uint i = k * stride;
-      const Oracle expected = oracle(film, width, i % width, i / width, passes);
-      CAPTURE(i, random.seed);
+      const Oracle expected = oracle(film, width, i % width, i / width, passes, even);
+      CAPTURE(i, even, random.seed);
       CHECK(errors[k].noise == Approx(expected.noise).epsilon(1e-5));
       CHECK(errors[k].pooled_noise == Approx(expected.pooled_noise).epsilon(1e-5));
       // A mean next to zero cancels.
@@ -110,28 +146,13 @@ TEST_CASE("noise and bias of pixels are found where they are known") {
   RandomInputs random(62);
   constexpr uint width = 64, height = 64, passes = 16;
   constexpr double sigma = 0.4, bias = 0.3;
-  const auto program = build_test_program(R"(
-#include "film.cl"
-kernel void add_samples(global const float2 *samples, global FilmPixel *film, volatile global Counters *counters,
-                        uint pixels, uint passes) {
-  uint i = get_global_id(0);
-  if (i >= pixels) return;
-  for (uint n = 0; n < passes; ++n) film_add(film + i, (real3)samples[i * passes + n].x, samples[i * passes + n].y, n, counters);
-}
-)");
   for (const bool biased : {false, true}) {
     std::vector<float2> samples(width * height * passes);
     for (auto& sample : samples) {
       sample.x = static_cast<float>(1 + (biased ? bias : 0) + sigma * normal(random));
       sample.y = static_cast<float>((biased ? bias / 2 : 0) + sigma * normal(random));
     }
-    auto in = test_device().upload(samples, "samples");
-    auto film = test_device().upload(std::vector<FilmPixel>(width * height), "film");
-    auto counters = test_device().upload(std::vector<Counters>(1), "counters");
-    auto built = program;
-    run_kernel(built, "add_samples", width * height, in, film, counters, width * height, passes);
-    const auto errors =
-        device_errors(test_device().download<FilmPixel>(film, width * height), width, passes, 1);
+    const auto errors = device_errors(film_of(samples, passes), width, passes, 1);
     double noise2 = 0, pooled2 = 0, drawn2 = 0, mean_bias = 0;
     for (const auto& error : errors) {
       noise2 += error.noise * error.noise / errors.size();
@@ -149,6 +170,52 @@ kernel void add_samples(global const float2 *samples, global FilmPixel *film, vo
       CHECK(mean_bias == Approx(bias).epsilon(0.05));
     else
       CHECK(mean_bias < 0.3 * sigma / std::sqrt(passes));
+  }
+}
+
+TEST_CASE("the noise of pixels whose estimates are even is that of their means") {
+  // On the left of the picture a pixel's estimates have one number in every eighth of what they may be, in
+  // each half of the passes and independently of the other half; on the right they are independent.
+  RandomInputs random(64);
+  constexpr uint width = 128, height = 96, passes = 16, border = 8;
+  std::vector<float2> samples;
+  double truth[2] = {0, 0};
+  for (uint i = 0; i < width * height; ++i) {
+    const bool right = i % width >= width / 2;
+    std::array<uint, passes / 2> strata[2];
+    for (auto& order : strata) {
+      for (uint k = 0; k < order.size(); ++k) order[k] = k;
+      std::shuffle(order.begin(), order.end(), random.engine);
+    }
+    double mean = 0;
+    for (uint n = 0; n < passes; ++n) {
+      const double u =
+          right ? random.uniform() : (strata[std::popcount(n) % 2][n / 2] + random.uniform()) / 8;
+      samples.push_back({static_cast<float>(1 + u), 0});
+      mean += u / passes;
+    }
+    truth[right] += std::pow(mean - 0.5, 2) / (width * height / 2);
+  }
+  const auto film = film_of(samples, passes);
+  for (const bool even : {false, true}) {
+    double noise[2] = {0, 0}, pooled[2] = {0, 0};
+    const auto errors = device_errors(film, width, passes, 1, even);
+    for (uint i = 0; i < errors.size(); ++i) {
+      const uint x = i % width;
+      if (x + border >= width / 2 && x < width / 2 + border) continue;
+      const double share = 1.0 / (height * (width / 2 - border));
+      noise[x >= width / 2] += share * std::pow(errors[i].noise, 2);
+      pooled[x >= width / 2] += share * std::pow(errors[i].pooled_noise, 2);
+    }
+    CAPTURE(even, random.seed);
+    CHECK(std::sqrt(noise[1] / truth[1]) == Approx(1).epsilon(0.05));
+    CHECK(std::sqrt(pooled[1] / truth[1]) == Approx(1).epsilon(0.05));
+    if (even) {
+      CHECK(std::sqrt(noise[0] / truth[0]) == Approx(1).epsilon(0.05));
+      CHECK(std::sqrt(pooled[0] / truth[0]) == Approx(1).epsilon(0.05));
+    } else {
+      CHECK(std::sqrt(pooled[0] / truth[0]) > 4);
+    }
   }
 }
 

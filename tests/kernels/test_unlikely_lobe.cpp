@@ -20,11 +20,11 @@ kernel void seen(SCENE_PARAMETERS, global const float4 *targets, global float4 *
   uint i = get_global_id(0);
   if (i >= count) return;
   SCENE_INIT(params);
-  RandomStream stream = {params.seed, 0, i};
+  PathSampler sampler = path_sampler(params.seed, 0, i, 0, 1, 0u);
   Ray ray = {params.camera.origin.xyz, normalize(targets[i / each].xyz - params.camera.origin.xyz)};
   Radiance radiance;
   uint rays = 0;
-  path_radiance(&scene, ray, 0, stream, params.max_depth, &radiance, &rays, counters);
+  path_radiance(&scene, ray, 0, &sampler, params.max_depth, &radiance, &rays, counters);
   out[i] = (float4)(radiance.sum, rays);
 }
 )";

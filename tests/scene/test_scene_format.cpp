@@ -44,7 +44,7 @@ TEST_CASE("renderers") {
   CHECK(renderer(R"({"type": "pt", "sample": 25000})").samples == 25000);
   const RendererSpec sppm = renderer(
       R"({"type": "sppm", "view_point_sample": 1, "photon_sample": 1e6, "radius": 0.5, "alpha": 0.6, "rounds": 9, "indirect_radius": 3, "guided_photons": true, "boundary_correction": false,
-          "schedule": "geometric", "radius_decay": 0.9, "direct_light": "photons"})");
+          "schedule": "geometric", "radius_decay": 0.9, "direct_light": "photons", "sampler": "independent"})");
   CHECK(sppm.integrator == Integrator::sppm);
   CHECK(sppm.visible_points == 1);
   CHECK(sppm.photons == 1000000);
@@ -57,8 +57,10 @@ TEST_CASE("renderers") {
   CHECK(sppm.schedule == Schedule::geometric);
   CHECK(sppm.radius_decay == 0.9);
   CHECK(sppm.direct_light == DirectLight::photons);
+  CHECK(sppm.sampler == Sampler::independent);
   CHECK(indirect_radius(renderer(R"({"photon_sample": 160000})")) == 1);
   CHECK(renderer("{}").boundary_correction);
+  CHECK(renderer("{}").sampler == Sampler::sobol);
   CHECK(!renderer("{}").guided_photons);
   CHECK(renderer(R"({"schedule": "global", "direct_light": "shadow_rays"})").schedule == Schedule::global);
   CHECK(renderer(R"({"direct_light": "shadow_rays"})").direct_light == DirectLight::shadow_rays);

@@ -30,6 +30,7 @@ std::vector<Check> stability_checks() {
                             photon_grid_checks(),
                             execution_order_checks(),
                             random_number_checks(),
+                            path_number_checks(),
                             non_finite_checks(),
                             arithmetic_checks()})
     for (Check check : group) {

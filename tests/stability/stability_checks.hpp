@@ -34,6 +34,7 @@ std::vector<Check> progressive_radius_checks();   // hard cases 17 and 18
 std::vector<Check> photon_grid_checks();          // hard case 19
 std::vector<Check> execution_order_checks();      // hard case 20
 std::vector<Check> random_number_checks();        // hard case 21
+std::vector<Check> path_number_checks();          // hard case 21: numbers of camera paths
 std::vector<Check> non_finite_checks();           // hard case 22
 std::vector<Check> arithmetic_checks();           // hard case 24
 
