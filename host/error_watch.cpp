@@ -19,7 +19,7 @@ ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confiden
 void ErrorWatch::update(std::uint64_t passes) {
   if (passes < next_) return;
   next_ = passes + std::max<std::uint64_t>(1, passes / 5);
-  trend_.add(passes, film_.errors(passes, look_pixels));
+  trend_.add(passes, film_.look(passes, look_pixels));
   if (!last()) return;
   until_half_ = trend_.passes_until(last()->error / 2);
   if (wanted_) until_wanted_ = trend_.passes_until(*wanted_);
@@ -27,7 +27,7 @@ void ErrorWatch::update(std::uint64_t passes) {
 
 std::optional<PictureError> ErrorWatch::measure(std::uint64_t passes) const {
   if (passes < 2) return {};
-  return picture_error(film_.errors(passes, measure_pixels), confidence_);
+  return picture_error(film_.look(passes, measure_pixels), confidence_);
 }
 
 }  // namespace causticl

@@ -74,7 +74,7 @@ std::vector<Channel> Film::layers(std::uint64_t passes) {
   return channels;
 }
 
-std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
+std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most, bool even) {
   if (complete_) complete_();
   // A stride that shares no factor with the width visits all columns.
   std::size_t stride = (pixels() + most - 1) / most;
@@ -87,7 +87,7 @@ std::vector<PixelError> Film::errors(std::uint64_t passes, std::size_t most) {
   if (!pixel_errors_()) pixel_errors_ = programs_.kernel("film", "pixel_errors");
   set_arguments(pixel_errors_, pixels_, errors_, static_cast<cl_uint>(width_), static_cast<cl_uint>(height_),
                 static_cast<cl_uint>(passes), static_cast<cl_uint>(stride), static_cast<cl_uint>(count),
-                static_cast<cl_uint>(even_));
+                static_cast<cl_uint>(even));
   device_.launch_pass(pixel_errors_, count);
   return device_.download<PixelError>(errors_, count);
 }

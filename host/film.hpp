@@ -34,12 +34,15 @@ class Film {
   /// The same of each layer: direct.R, direct.G, direct.B, caustic.R ... indirect.B. Needs has_layers().
   std::vector<Channel> layers(std::uint64_t passes);
 
-  /// The errors of every pixel after `passes` passes, or of `most` pixels at most, spread over the picture.
-  /// Waits for the queue.
-  std::vector<PixelError> errors(std::uint64_t passes) { return errors(passes, pixels()); }
-  std::vector<PixelError> errors(std::uint64_t passes, std::size_t most);
+  /// The errors of every pixel after `passes` passes. Waits for the queue.
+  std::vector<PixelError> errors(std::uint64_t passes) { return errors(passes, pixels(), even_); }
+  /// The same of `most` pixels at most, spread over the picture, but that noise is as if estimates were
+  /// independent: that is cheaper, and of a look while passes are still to come only its course counts.
+  std::vector<PixelError> look(std::uint64_t passes, std::size_t most) { return errors(passes, most, false); }
 
  private:
+  std::vector<PixelError> errors(std::uint64_t passes, std::size_t most, bool even);
+
   Device& device_;
   int width_, height_;
   bool even_;
