@@ -17,6 +17,8 @@ const std::vector<float>* find(const Picture& picture, const std::string& name) 
   return found == picture.channels.end() ? nullptr : &found->values;
 }
 
+}  // namespace
+
 std::vector<PixelError> errors_of(const Picture& picture) {
   std::vector<PixelError> errors(picture.rgb.size() / 3);
   for (const auto& kind : pixel_error_kinds) {
@@ -28,8 +30,6 @@ std::vector<PixelError> errors_of(const Picture& picture) {
     errors[i].luminance = static_cast<float>(luminance(&picture.rgb[3 * i]));
   return errors;
 }
-
-}  // namespace
 
 std::optional<Calibration> calibration_of(const Picture& picture, const Picture& reference,
                                           double confidence) {

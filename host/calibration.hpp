@@ -2,10 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "image.hpp"
+#include "types.h"
 
 namespace causticl {
+
+/// What a picture's channels tell of the error of each pixel; empty where it has not all of them.
+std::vector<PixelError> errors_of(const Picture& picture);
 
 struct Calibration {
   double estimated = 0;  // the picture's error by its channels, at `confidence`

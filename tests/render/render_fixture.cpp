@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "device_fixture.hpp"
+#include "luminance.hpp"
 
 namespace causticl {
 
@@ -59,8 +60,7 @@ Picture layer_of(const Picture& picture, const std::string& name) {
 
 double mean_luminance(const Picture& picture) {
   double sum = 0;
-  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
-    sum += 0.2126 * picture.rgb[i] + 0.7152 * picture.rgb[i + 1] + 0.0722 * picture.rgb[i + 2];
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) sum += luminance(&picture.rgb[i]);
   return sum / (static_cast<double>(picture.width) * picture.height);
 }
 

@@ -1,7 +1,9 @@
 // The numbers of camera paths: what they are worth, and that a picture knows it.
 #include <cmath>
 
+#include "calibration.hpp"
 #include "device_fixture.hpp"
+#include "luminance.hpp"
 #include "render_fixture.hpp"
 #include "temporary_folder.hpp"
 
@@ -16,17 +18,9 @@ struct Errors {
   double within = 0;  // the share of pixels within 1.64 standard deviations of pooled noise
 };
 
-const std::vector<float>& channel(const Picture& picture, const std::string& name) {
-  const auto found = std::find_if(picture.channels.begin(), picture.channels.end(),
-                                  [&](const Channel& one) { return one.name == name; });
-  REQUIRE(found != picture.channels.end());
-  return found->values;
-}
-
 std::vector<double> luminances(const Picture& picture) {
   std::vector<double> result;
-  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
-    result.push_back(0.2126 * picture.rgb[i] + 0.7152 * picture.rgb[i + 1] + 0.0722 * picture.rgb[i + 2]);
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) result.push_back(luminance(&picture.rgb[i]));
   return result;
 }
 
@@ -39,15 +33,14 @@ Errors errors_of(const Scene& scene, const std::vector<double>& truth) {
     RenderOptions options;
     options.seed = static_cast<std::uint32_t>(seed);
     options.outputs = {folder.path("picture.exr")};  // no channels without
-    const Picture picture = render_scene(scene, test_device(), options).picture;
-    const auto found = luminances(picture);
-    const auto &noise = channel(picture, "error.noise"), &drawn = channel(picture, "error.drawn"),
-               &pooled = channel(picture, "error.pooled_noise");
+    const auto pixels = errors_of(render_scene(scene, test_device(), options).picture);
+    REQUIRE(pixels.size() == truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i) {
-      errors.truth += share * std::pow(found[i] - truth[i], 2);
-      errors.noise += share * std::pow(static_cast<double>(noise[i]), 2);
-      errors.drawn += share * std::pow(static_cast<double>(drawn[i]), 2);
-      errors.within += share * (std::fabs(found[i] - truth[i]) <= 1.64 * static_cast<double>(pooled[i]));
+      const double off = pixels[i].luminance - truth[i];
+      errors.truth += share * off * off;
+      errors.noise += share * std::pow(static_cast<double>(pixels[i].noise), 2);
+      errors.drawn += share * std::pow(static_cast<double>(pixels[i].drawn), 2);
+      errors.within += share * (std::fabs(off) <= 1.64 * static_cast<double>(pixels[i].pooled_noise));
     }
   }
   for (double* square : {&errors.truth, &errors.noise, &errors.drawn}) *square = std::sqrt(*square);
