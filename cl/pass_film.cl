@@ -12,6 +12,11 @@
 // pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
 #define NEIGHBOURS_SHARE 0.02f
 
+// Pixels to each side over which a pixel's bound looks for noise as well, and how much of that it counts at least: where
+// bright paths are rare, the first passes may have missed all of the pixels beside.
+#define BOUND_REACH 2
+#define BOUND_SHARE 0.6f
+
 // Pixels to each side over which the noise of halves is compared with that of passes. Seven times seven tell a variance
 // to a fifth.
 #define HALVES_REACH 3
@@ -32,6 +37,16 @@ INLINE float film_estimates(global const FilmPixel *pixel, uint passes) { return
 INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes) {
   float estimates = film_estimates(pixel, passes);
   return pixel->spread / (fmax(estimates, 1.0f) * fmax(estimates - 1, 1.0f));
+}
+
+// The mean of variances over the window around (x, y).
+INLINE float variance_around(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint reach,
+                             uint passes) {
+  uint left, top, right = window_of(x, width, reach, &left), bottom = window_of(y, height, reach, &top);
+  float sum = 0;
+  for (uint j = top; j < bottom; ++j)
+    for (uint i = left; i < right; ++i) sum += variance_of_mean(film + j * width + i, passes);
+  return sum / ((right - left) * (bottom - top));
 }
 
 // Half of the difference between the means of one half of the passes and of the other.
@@ -86,7 +101,8 @@ INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, i
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
 //          schedule their radii follow, times share_of_variance() where they are even. What the pixel's own passes say of
 //          it is right on average, but in few passes it is itself noisy; pooled_noise takes the mean of variances around,
-//          which is smooth, but too large for most pixels beside edges and glints.
+//          which is smooth, but too large for most pixels beside edges and glints, and no less than BOUND_SHARE of
+//          the mean further around.
 //   bias:  its absolute value, from the blur around the pixel, once of each half of the passes. Both have noises of their
 //          own, so that half their difference is as noisy as their mean: the square of the first, over the pixel's window
 //          and the eight beside it, is what the square of the second owes to noise.
@@ -94,12 +110,9 @@ INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, i
 //          variance and kurtosis.
 INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes,
                               bool even) {
-  uint x = pixel % width, y = pixel / width, left, top;
-  uint right = window_of(x, width, REACH, &left), bottom = window_of(y, height, REACH, &top);
-  float pooled = 0;
-  for (uint j = top; j < bottom; ++j)
-    for (uint i = left; i < right; ++i) pooled += variance_of_mean(film + j * width + i, passes);
-  pooled /= (right - left) * (bottom - top);
+  uint x = pixel % width, y = pixel / width;
+  float pooled = variance_around(film, width, height, x, y, REACH, passes);
+  float bound = fmax(pooled, BOUND_SHARE * variance_around(film, width, height, x, y, BOUND_REACH, passes));
   Blur own = blur_around(film, width, height, (int)x, (int)y, passes);
   float noise = 0, windows = 0;
   for (int j = -1; j <= 1; ++j)
@@ -114,7 +127,7 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
   float share = even ? share_of_variance(film, width, height, x, y, passes) : 1.0f;
   error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * variance_of_mean(p, passes) + NEIGHBOURS_SHARE * pooled));
-  error.pooled_noise = sqrt(share * pooled);
+  error.pooled_noise = sqrt(share * bound);
   error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f));
   error.drawn = half_difference(p, passes);
   return error;

@@ -42,6 +42,10 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   };
   double variance = 0;
   const double pixels = over_window(x, y, [&](const FilmPixel& p) { variance += variance_of(p); });
+  double wide = 0;
+  reach = 2;
+  const double wide_pixels = over_window(x, y, [&](const FilmPixel& p) { wide += variance_of(p); });
+  reach = 1;
   int in_half[2] = {0, 0};
   for (uint n = 0; n < passes; ++n) ++in_half[std::popcount(n) % 2];
   double noise = 0, square = 0;
@@ -78,8 +82,8 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
     share = squares / variances;
   }
   return {std::sqrt(share * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
-          std::sqrt(share * variance / pixels), 2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)),
-          drawn_of(own)};
+          std::sqrt(share * std::max(variance / pixels, 0.6 * wide / wide_pixels)),
+          2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)), drawn_of(own)};
 }
 
 /// The film of pixels that have each had `passes` estimates of luminance (x), with what their kernel blurs of
