@@ -5,7 +5,7 @@
 
 #define DIM_FILM 0u          // position in the pixel (xy), lens (zw)
 #define DIM_EMITTER 1u       // which emitter (xw), point on it (yz), side of it (w)
-#define DIM_EMISSION 2u      // direction (xy)
+#define DIM_EMISSION 2u      // direction (xy), whether it keeps the cell of aimed_photons.cl (z)
 #define DIM_BOUNCE_FIRST 8u  // first dimension of vertex 0
 #define DIM_BOUNCE_STRIDE 8u
 

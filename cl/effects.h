@@ -29,7 +29,9 @@
 
 #define EFFECT_GUIDED_PHOTONS (1u << 19) // photons guided to what the camera sees
 
-#define EFFECT_ALL ((1u << 20) - 1u)
+#define EFFECT_AIMED_PHOTONS (1u << 20)  // photons aimed at what focuses them
+
+#define EFFECT_ALL ((1u << 21) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
 #define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture

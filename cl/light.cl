@@ -219,19 +219,19 @@ INLINE uint photon_emitter(const Scene *scene, RandomStream stream) {
   return emitter_choose(scene, choice.x, choice.w);
 }
 
-// Starts a photon of an emitter: point by area, direction by cosine. Returns its ray; *flux is relative to
+// Starts a photon of an emitter: point by area, direction by cosine, which u and v draw, uniform numbers. Returns its ray; *flux is relative to
 // Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point and directional lights;
 // about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
-INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream, real3 *flux) {
-  real4 choice = random4(stream, DIM_EMITTER), direction = random4(stream, DIM_EMISSION);
+INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream, real u, real v, real3 *flux) {
+  real4 choice = random4(stream, DIM_EMITTER);
   global const Emitter *emitter = scene->emitters + chosen;
   global const float *power = (global const float *)&emitter->radiance;
   real3 normal, radiance = (real3)(power[0], power[1], power[2]);
   if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
-    return environment_emit(scene, emitter, choice, direction.xy, flux);
+    return environment_emit(scene, emitter, choice, (real2)(u, v), flux);
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
     real share;
-    Ray leaving = delta_light_ray(emitter, direction.xy, &share);
+    Ray leaving = delta_light_ray(emitter, (real2)(u, v), &share);
     *flux = radiance * (share / max_component(radiance));
     return leaving;
   }
@@ -239,7 +239,7 @@ INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream
   real3 point = emitter_point(scene, emitter, choice.y, choice.z, &normal, &error, &area_pdf);
   normal = scaled3(emitter->two_sided != 0 && choice.w < (real)0.5f ? -1 : 1, normal);
   Ray ray;
-  ray.direction = hemisphere_cosine_by(direction.x, direction.y, normal);
+  ray.direction = hemisphere_cosine_by(u, v, normal);
   ray.origin = offset_origin(point, error, normal, ray.direction);
   real share = area_pdf > 0 ? 1 : 0, whole = max_component(radiance) * area_pdf * power[3];
   *flux = quotient3(scaled3(share, radiance), area_pdf > 0 ? whole : 1);

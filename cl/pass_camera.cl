@@ -108,7 +108,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
                                               sample == params->pass % params->visible_points)) {
         real radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : pixels[pixel].radius2_hi);
         point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
-                                       random_at(stream, depth, DIM_COVERAGE), &rays, counters);
+                                       path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
       }
       history = history_after(history, false);
       if (shadow_rays)

@@ -1,5 +1,6 @@
 // Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
 // medium scatters them.
+#include "aimed_photons.cl"
 #include "direct.cl"
 #include "guided_photons.cl"
 #ifdef WAVE_BRUTE_FORCE
@@ -129,9 +130,11 @@ INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) 
 }
 
 // Starts `count` photons of the pass, from number `first` on.
-OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, uint first, uint count, Wave *wave) {
+OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
+                       uint count, Wave *wave) {
   const Scene scene = *from;
   const Params params = *settings;
+  global const AimCell *cells = aims->cells;
   for (uint i = 0; i < count; ++i) {
     PhotonStart start = {first + i, 0, 0, 0, 1};
     if (HAS(EFFECT_GUIDED_PHOTONS)) {
@@ -149,8 +152,14 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
+    RandomStream stream = wave_stream(&params, wave, i);
+    real4 random = random4(stream, DIM_EMISSION);
+    real u = random.x, v = random.y, share = 1;
+    uint emitter = wave->primitive[i];
+    if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, aim_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
-    Ray ray = photon_emit_from(&scene, wave->primitive[i], wave_stream(&params, wave, i), &flux);
+    Ray ray = photon_emit_from(&scene, emitter, stream, u, v, &flux);
+    if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon = {ray, flux, HISTORY_STRAIGHT, 0, interior_none()};
     wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
@@ -202,6 +211,17 @@ OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth,
   }
 }
 
+// Counts the scouts that land as parts of caustics, by the cell that they left by.
+OUTLINE void wave_learn(const Scene *scene, const Params *params, const Wave *wave, uint count, const Aim *aim) {
+  for (uint i = 0; i < count; ++i) {
+    if (!(wave->events[i] & EVENT_STORED) || (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON))) continue;
+    RandomStream stream = wave_stream(params, wave, i);
+    real4 random = random4(stream, DIM_EMISSION);
+    atomic_inc(aim->landed + aim_square(photon_emitter(scene, stream), scene->emitter_count) +
+               aim_cell(random.x, random.y));
+  }
+}
+
 // Stores the records of the last event and counts what went wrong there.
 OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, uint capacity,
                         volatile global Counters *counters) {
@@ -241,11 +261,11 @@ OUTLINE uint wave_compact(uint count, Wave *wave) {
 }
 
 // Traces photons [first, first + count) of the pass, all of them one event at a time. Returns the number of rays.
-OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, uint first, uint count,
-                        global Photon *photons, volatile global Counters *counters) {
+OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
+                        uint count, global Photon *photons, volatile global Counters *counters) {
   Wave wave;
   uint rays = 0;
-  wave_emit(scene, params, guide, first, wave_padded(count), &wave);
+  wave_emit(scene, params, guide, aim, first, wave_padded(count), &wave);
   uint alive = wave_compact(count, &wave);
   for (uint depth = 0; depth < params->max_depth && alive > 0; ++depth) {
     rays += alive;
@@ -253,9 +273,12 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
     uint padded = wave_padded(alive);
     for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
     wave_scatter(scene, params, depth, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
-    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role != PHOTONS_PLAIN)
+    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_SCOUTS)
       wave_guide(guide, params, depth, alive, &wave, counters);
-    wave_store(alive, &wave, photons, params->photon_capacity, counters);
+    if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)
+      wave_learn(scene, params, &wave, alive, aim);
+    else
+      wave_store(alive, &wave, photons, params->photon_capacity, counters);
     alive = wave_compact(alive, &wave);
   }
   return rays;
@@ -263,10 +286,10 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
 
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
 // the host can enlarge it and trace the pass again. One item of a work-group traces the photons of all. What follows
-// `params` is asked for by guided photons alone.
+// `params` is asked for by guided photons, and at the end by aimed ones.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
-                          Grid cells) {
+                          Grid cells, global const AimCell *aim_cells, volatile global uint *aim_landed) {
   uint first = get_global_id(0), count = WAVE_CAPACITY == 1u ? 1u : (uint)get_local_size(0);
   if (first >= params.photon_count) return;
   if (WAVE_CAPACITY > 1u) {
@@ -275,6 +298,7 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   SCENE_INIT(params);
   count = min(count, params.photon_count - first);
   Guide guide = {seeds, accepted, marks, cells};
-  uint rays = wave_paths(&scene, &params, &guide, params.first_photon + first, count, photons, counters);
+  Aim aim = {aim_cells, aim_landed};
+  uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, count, photons, counters);
   atomic_add(&counters->rays, rays);
 }

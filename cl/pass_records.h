@@ -2,11 +2,19 @@
 #ifndef CAUSTICL_PASS_RECORDS_H
 #define CAUSTICL_PASS_RECORDS_H
 
-// What the photons of a launch are: see guided_photons.cl.
+// What the photons of a launch are: see aimed_photons.cl for those before the first pass, and guided_photons.cl for those
+// from PHOTONS_SCOUTS on.
 #define PHOTONS_PLAIN 0u
-#define PHOTONS_SCOUTS 1u
-#define PHOTONS_COPIES 2u
-#define PHOTONS_SEEDS 3u
+#define PHOTONS_TO_AIM_BY 1u
+#define PHOTONS_SCOUTS 2u
+#define PHOTONS_COPIES 3u
+#define PHOTONS_SEEDS 4u
+
+// Cells along each side of the square of numbers by which photons leave an emitter, and such squares at most: emitters
+// beyond share one with others.
+#define AIM_SIDE 32u
+#define AIM_CELLS (AIM_SIDE * AIM_SIDE)
+#define AIM_SQUARES 16u
 
 // Boxes of the photon grid along a camera ray's segment in the medium, at most.
 #define MOST_SEGMENT_STEPS 1024u
@@ -49,6 +57,14 @@ CHECK_SIZE(Params, 256);
 
 // Items of a work-group, at most: kernels keep a number for each in local memory.
 #define LARGEST_WORK_GROUP 256u
+
+// A cell of aimed_photons.cl, as in an alias table (Walker 1977).
+typedef struct {
+  float stay;   // the probability that numbers which fall into it keep it
+  uint other;   // where they go else: a cell of the same square
+  float share;  // of the flux that a photon would have, for one that leaves by this cell
+} AimCell;
+CHECK_SIZE(AimCell, 12);
 
 // Counts that kernels add to; each wraps at 2^32 and is read as differences.
 typedef struct {

@@ -81,6 +81,13 @@ std::string shadow_rays_reason(const Scene& scene) {
   return environment.empty() ? "" : key + environment;
 }
 
+/// Light becomes a caustic by what is not diffuse.
+std::string aimed_photons_reason(const Scene& scene) {
+  if (!aims_photons(scene)) return "";
+  return by_material(scene, "type",
+                     [](const MaterialSpec& material) { return material.kind != Kind::diffuse; });
+}
+
 std::string motion_reason(const Scene& scene) {
   if (!has_motion(scene)) return "";
   return first_object(
@@ -124,6 +131,8 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_MEDIUM, "medium", "medium", fills(scene.medium) ? "/medium" : ""},
       {EFFECT_GUIDED_PHOTONS, "guided_photons", "photons guided to what the camera sees",
        scene.renderer.guided_photons ? "/renderer/guided_photons" : ""},
+      {EFFECT_AIMED_PHOTONS, "aimed_photons", "photons aimed at what focuses them",
+       aimed_photons_reason(scene)},
   };
 }
 

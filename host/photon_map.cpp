@@ -24,14 +24,16 @@ double affordable_buckets(std::uint32_t photons) {
 }  // namespace
 
 PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
-                     PhotonGuide& guide)
+                     PhotonGuide& guide, PhotonAim& aim)
     : scene_(scene),
       device_(device),
       programs_(programs),
       guide_(guide),
+      aim_(aim),
       photon_bytes_(programs.options().precision == Precision::float64 ? photon_bytes_in_double
                                                                        : sizeof(Photon)),
-      counters_(counters) {
+      counters_(counters),
+      photons_(device.buffer(0, "photons")) {
   reserve_buckets(1);
   sorted_ = device_.buffer(0, "sorted photons");
 }
@@ -39,6 +41,15 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& program
 void PhotonMap::prepare() {
   trace_photons_ = programs_.kernel("photon", "trace_photons");
   first_argument_ = set_scene_arguments(trace_photons_, scene_);
+}
+
+/// All but Params.
+void PhotonMap::set_trace_arguments() {
+  set_scene_arguments(trace_photons_, scene_);
+  trace_photons_.setArg(first_argument_, photons_);
+  trace_photons_.setArg(first_argument_ + 1, counters_);
+  guide_.add_arguments(trace_photons_, first_argument_ + 3);
+  aim_.add_arguments(trace_photons_, first_argument_ + 7);
 }
 
 /// Traces params.photon_count photons in the role that `params` tells.
@@ -67,6 +78,18 @@ void PhotonMap::launch_all(Params params) {
   launch(params);
 }
 
+void PhotonMap::take_aim(Params params) {
+  if (aim_.scouts() == 0) return;
+  constexpr uint beyond_passes = 0xffffffff;  // numbers of their own
+  params.pass = beyond_passes;
+  params.photon_role = PHOTONS_TO_AIM_BY;
+  params.first_photon = 0;
+  params.photon_count = aim_.scouts();
+  set_trace_arguments();
+  launch(params);
+  aim_.learn();
+}
+
 Counters PhotonMap::trace(Params params) {
   stored_ = indirect_ = 0;
   if (params.photon_count == 0) return device_.download<Counters>(counters_, 1)[0];
@@ -77,10 +100,7 @@ Counters PhotonMap::trace(Params params) {
   for (;;) {
     params.photon_capacity = capacity_;
     device_.clear(counters_, offsetof(Counters, rays));  // what follows counts on
-    set_scene_arguments(trace_photons_, scene_);
-    trace_photons_.setArg(first_argument_, photons_);
-    trace_photons_.setArg(first_argument_ + 1, counters_);
-    guide_.add_arguments(trace_photons_, first_argument_ + 3);
+    set_trace_arguments();
     launch_all(params);
     const Counters counters = device_.download<Counters>(counters_, 1)[0];
     stored_ = std::min(counters.photons, capacity_);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "integrator.hpp"
+#include "photon_aim.hpp"
 #include "photon_guide.hpp"
 #include "programs.hpp"
 #include "upload.hpp"
@@ -13,10 +14,14 @@ namespace causticl {
 class PhotonMap {
  public:
   PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
-            PhotonGuide& guide);
+            PhotonGuide& guide, PhotonAim& aim);
 
   /// Waits until the kernel that traces photons is built.
   void prepare();
+
+  /// Only after prepare(), before the first pass: traces the scouts that photons are aimed by, if there are
+  /// any.
+  void take_aim(Params params);
 
   /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are scouts
   /// (params.photon_role) what follows from them. Waits for the device,
@@ -46,6 +51,7 @@ class PhotonMap {
   Device& device_;
   Programs& programs_;
   PhotonGuide& guide_;
+  PhotonAim& aim_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record as traced; a sorted one takes no more
@@ -57,6 +63,7 @@ class PhotonMap {
   PhotonGrids grids_{};
 
   std::uint32_t count_indirect(std::span<const std::byte> records) const;
+  void set_trace_arguments();
   void launch(const Params& params);
   void launch_all(Params params);
   void reserve_buckets(std::size_t buckets);

@@ -103,6 +103,16 @@ bool has_visible_light(const Scene& scene) {
          });
 }
 
+bool aims_photons(const Scene& scene) {
+  const bool distant_light =
+      (scene.environment && is_lit(*scene.environment)) ||
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
+        return light.kind == DeltaLight::Kind::directional && is_lit(light);
+      });
+  return scene.renderer.integrator == Integrator::sppm &&
+         scene.renderer.aimed_photons.value_or(distant_light);
+}
+
 bool has_motion(const Scene& scene) {
   return scene.camera.shutter[1] > scene.camera.shutter[0] &&
          std::any_of(scene.objects.begin(), scene.objects.end(),

@@ -104,6 +104,7 @@ struct RendererSpec {
   std::optional<double> indirect_radius;  // see indirect_radius()
   bool boundary_correction = true;        // sppm: kernels that reach beyond edges are made up for
   bool guided_photons = false;            // sppm: those that land where the camera sees are copied
+  std::optional<bool> aimed_photons;      // see aims_photons()
   double radius_decay = 0.95;             // Schedule::geometric
   Schedule schedule = Schedule::pixel;
   Sampler sampler = Sampler::sobol;                     // of camera paths
@@ -150,6 +151,10 @@ bool has_visible_light(const Scene& scene);
 
 /// Whether anything moves while the shutter is open.
 bool has_motion(const Scene& scene);
+
+/// Whether more photons go where they become caustics (sppm): as the scene says, else where light comes from
+/// beyond it (directional lights, the environment), of which most meets nothing that would make one.
+bool aims_photons(const Scene& scene);
 
 /// A `-D key=value` of the command line: `key` is a path of JSON keys joined by dots ("renderer.radius",
 /// "objects.3.radius"), `value` is JSON, or a string where it is not.

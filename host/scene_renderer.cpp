@@ -8,10 +8,24 @@ namespace {
 
 constexpr std::int64_t count_limit = 1 << 30;
 
-const std::vector<std::string> renderer_keys{
-    "type",           "sample",          "view_point_sample", "photon_sample",       "rounds",    "radius",
-    "radius_decay",   "alpha",           "schedule",          "direct_light",        "light_pos", "light_r",
-    "light_radiance", "indirect_radius", "guided_photons",    "boundary_correction", "sampler"};
+const std::vector<std::string> renderer_keys{"type",
+                                             "sample",
+                                             "view_point_sample",
+                                             "photon_sample",
+                                             "rounds",
+                                             "radius",
+                                             "radius_decay",
+                                             "alpha",
+                                             "schedule",
+                                             "direct_light",
+                                             "light_pos",
+                                             "light_r",
+                                             "light_radiance",
+                                             "indirect_radius",
+                                             "guided_photons",
+                                             "aimed_photons",
+                                             "boundary_correction",
+                                             "sampler"};
 
 }  // namespace
 
@@ -30,6 +44,7 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   if (const auto wider = json.find("indirect_radius"))
     renderer.indirect_radius = wider->number({1, 100, "a number from 1 to 100"});
   renderer.guided_photons = json.boolean("guided_photons", renderer.guided_photons);
+  if (json.has("aimed_photons")) renderer.aimed_photons = json.boolean("aimed_photons", true);
   renderer.boundary_correction = json.boolean("boundary_correction", renderer.boundary_correction);
   renderer.alpha = json.number("alpha", renderer.alpha, open_unit_number);
   renderer.radius_decay =

@@ -145,6 +145,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
            << r.alpha;
     if (!r.boundary_correction) text << ", no boundary correction";
     if (r.guided_photons) text << ", guided photons";
+    if (r.aimed_photons) text << (*r.aimed_photons ? ", aimed photons" : ", photons without aim");
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }
   if (r.sampler == Sampler::independent) text << ", independent numbers";

@@ -41,6 +41,7 @@ class Sppm : public PassIntegrator {
   Params params_;
   cl::Buffer counters_;
   PhotonGuide guide_;
+  PhotonAim aim_;
   PhotonMap photon_map_;
   bool with_photons_;
   std::optional<std::uint32_t> started_pass_;  // whose photons are in the map
@@ -55,6 +56,7 @@ class Sppm : public PassIntegrator {
   double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
+  void begin(std::uint32_t pass);
   void start_pass(std::uint32_t pass);
   void trace_visible_points(const Params& params);
   double choose_first_radius(Programs& programs, double extent);

@@ -93,6 +93,8 @@ inline std::vector<EffectScene> effect_scenes() {
        R"({"medium": {"scattering": [0, 0, 0]}, )" + plain.substr(1), "/medium"},
       {"guided_photons", effect_scene("", "", R"(, "guided_photons": true)"), effect_scene(""),
        "/renderer/guided_photons"},
+      {"aimed_photons", effect_scene(ball_of(R"({"type": "mirror"})"), "", R"(, "aimed_photons": true)"),
+       effect_scene(ball_of(R"({"type": "mirror"})")), "type of /objects/2/material"},
   };
 }
 

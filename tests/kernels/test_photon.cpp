@@ -20,7 +20,8 @@ std::pair<std::vector<Photon>, Counters> traced(const Scene& scene, uint photons
   Programs programs(test_device(), options, {"photon"});
   const auto counters = test_device().upload(std::vector<Counters>{{}}, "counters");
   PhotonGuide unguided(device_scene, test_device(), programs, photons, false);
-  PhotonMap map(device_scene, test_device(), programs, counters, unguided);
+  PhotonAim aimless(test_device(), device_scene.emitter_count, photons, false);
+  PhotonMap map(device_scene, test_device(), programs, counters, unguided, aimless);
   map.prepare();
   Params params = scene_params(scene, device_scene, 7);
   begin_pass(params, 0);

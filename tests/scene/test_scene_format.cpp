@@ -43,7 +43,7 @@ TEST_CASE("renderers") {
   CHECK(renderer(R"({"type": "pt", "sample": 25000})").integrator == Integrator::pt);
   CHECK(renderer(R"({"type": "pt", "sample": 25000})").samples == 25000);
   const RendererSpec sppm = renderer(
-      R"({"type": "sppm", "view_point_sample": 1, "photon_sample": 1e6, "radius": 0.5, "alpha": 0.6, "rounds": 9, "indirect_radius": 3, "guided_photons": true, "boundary_correction": false,
+      R"({"type": "sppm", "view_point_sample": 1, "photon_sample": 1e6, "radius": 0.5, "alpha": 0.6, "rounds": 9, "indirect_radius": 3, "guided_photons": true, "aimed_photons": false, "boundary_correction": false,
           "schedule": "geometric", "radius_decay": 0.9, "direct_light": "photons", "sampler": "independent"})");
   CHECK(sppm.integrator == Integrator::sppm);
   CHECK(sppm.visible_points == 1);
@@ -51,6 +51,7 @@ TEST_CASE("renderers") {
   CHECK(sppm.radius == 0.5);
   CHECK(indirect_radius(sppm) == 3);
   CHECK(sppm.guided_photons);
+  CHECK(sppm.aimed_photons == false);
   CHECK(!sppm.boundary_correction);
   CHECK(sppm.alpha == 0.6);
   CHECK(sppm.passes == 9);
@@ -62,6 +63,15 @@ TEST_CASE("renderers") {
   CHECK(renderer("{}").boundary_correction);
   CHECK(renderer("{}").sampler == Sampler::sobol);
   CHECK(!renderer("{}").guided_photons);
+  CHECK(!renderer("{}").aimed_photons);
+  CHECK(!aims_photons(folder.objects(lamp, "")));
+  CHECK(aims_photons(folder.objects(lamp, R"(, "renderer": {"aimed_photons": true})")));
+  const std::string sun =
+      R"(, "lights": [{"type": "directional", "direction": [0, -1, 0], "irradiance": [1, 1, 1]}])";
+  CHECK(aims_photons(folder.objects(lamp, sun)));
+  CHECK(
+      aims_photons(folder.objects(lamp, R"(, "lights": [{"type": "environment", "radiance": [1, 1, 1]}])")));
+  CHECK(!aims_photons(folder.objects(lamp, R"(, "renderer": {"type": "pt"})" + sun)));
   CHECK(renderer(R"({"schedule": "global", "direct_light": "shadow_rays"})").schedule == Schedule::global);
   CHECK(renderer(R"({"direct_light": "shadow_rays"})").direct_light == DirectLight::shadow_rays);
 
