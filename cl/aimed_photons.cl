@@ -16,7 +16,8 @@ typedef struct {
 
 // The first cell of an emitter's square.
 INLINE uint aim_square(uint emitter, uint emitters) {
-  return (uint)(emitter * (min(emitters, AIM_SQUARES) / (float)emitters)) * AIM_CELLS;
+  uint squares = min(emitters, AIM_SQUARES);
+  return min((uint)(emitter * (squares / (float)emitters)), squares - 1) * AIM_CELLS;
 }
 
 // The cell of a square that (u, v) lies in.

@@ -14,7 +14,7 @@ BUDGETS, SEEDS = (8, 32, 128), range(1, 9)
 LONG, LONG_SEEDS = (512, 2048), (1, 2)  # where half the error is
 SETTINGS = ['--quiet', '--size', '48x36', '--threads', '1']  # one scene for each processor is faster
 PHOTONS = 10000
-SAMPLES, MORE_SAMPLES = 4096, 65536  # of a path-traced reference; more where its own error is above the worst
+SAMPLES, MORE_SAMPLES = 16384, 65536  # of a path-traced reference; more where its own error is above the worst
 WORST_REFERENCE = 0.1
 
 causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])

@@ -74,6 +74,10 @@ TEST_CASE("several devices make the picture of one to the bit: a medium, and thi
   check_same(small("effects/moving_balls.json"), 2);
 }
 
+TEST_CASE("several devices make the picture of one to the bit: aimed photons") {
+  check_same(small("effects/sun.json"), 2);
+}
+
 TEST_CASE("several devices make the picture of one to the bit: path tracing, with layers") {
   RenderOptions options;
   options.layers = true;

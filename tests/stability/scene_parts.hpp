@@ -91,7 +91,8 @@ struct RenderBudget {
 /// to compile, serves all of them.
 inline RenderResult render_for(CheckContext& context, const Scene& scene) {
   RenderOptions options;
-  options.effects = "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,environment";
+  options.effects =
+      "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,environment,aimed_photons";
   options.kernel_dir = context.kernel_dir;
   options.seed = context.seed;
   options.threads = context.threads;
