@@ -12,10 +12,10 @@
 // pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
 #define NEIGHBOURS_SHARE 0.02f
 
-// Pixels to each side over which a pixel's bound looks for noise as well, and how much of that it counts at least: where
-// bright paths are rare, the first passes may have missed all of the pixels beside.
+// Pixels to each side over which a pixel's bound looks for noise as well, and after how many passes half of that counts
+// at least: where bright paths are rare, the first passes may have missed all of the pixels beside.
 #define BOUND_REACH 2
-#define BOUND_SHARE 0.6f
+#define BOUND_PASSES 12.0f
 
 // Pixels to each side over which the noise of halves is compared with that of passes. Seven times seven tell a variance
 // to a fifth.
@@ -101,8 +101,8 @@ INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, i
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
 //          schedule their radii follow, times share_of_variance() where they are even. What the pixel's own passes say of
 //          it is right on average, but in few passes it is itself noisy; pooled_noise takes the mean of variances around,
-//          which is smooth, but too large for most pixels beside edges and glints, and no less than BOUND_SHARE of
-//          the mean further around.
+//          which is smooth, but too large for most pixels beside edges and glints, and no less than a part of
+//          the mean further around, which goes down with passes.
 //   bias:  its absolute value, from the blur around the pixel, once of each half of the passes. Both have noises of their
 //          own, so that half their difference is as noisy as their mean: the square of the first, over the pixel's window
 //          and the eight beside it, is what the square of the second owes to noise.
@@ -112,7 +112,8 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
                               bool even) {
   uint x = pixel % width, y = pixel / width;
   float pooled = variance_around(film, width, height, x, y, REACH, passes);
-  float bound = fmax(pooled, BOUND_SHARE * variance_around(film, width, height, x, y, BOUND_REACH, passes));
+  float further = variance_around(film, width, height, x, y, BOUND_REACH, passes);
+  float bound = fmax(pooled, BOUND_PASSES / (BOUND_PASSES + passes) * further);
   Blur own = blur_around(film, width, height, (int)x, (int)y, passes);
   float noise = 0, windows = 0;
   for (int j = -1; j <= 1; ++j)

@@ -82,7 +82,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
     share = squares / variances;
   }
   return {std::sqrt(share * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
-          std::sqrt(share * std::max(variance / pixels, 0.6 * wide / wide_pixels)),
+          std::sqrt(share * std::max(variance / pixels, 12.0 / (12 + passes) * wide / wide_pixels)),
           2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)), drawn_of(own)};
 }
 
