@@ -14,18 +14,23 @@ constexpr double aimed_share = 0.2;
 // of millions need not be taken twice.
 constexpr std::uint32_t least_scouts = 1 << 14, most_scouts = 1 << 16;
 
+constexpr std::size_t cells_of_square{AIM_CELLS};
+
 /// Each cell with the eight beside it, by weights 1 2 1: what scouts just missed is not left to the few
 /// photons that carry much. Cells beyond the border are those at it.
 std::vector<double> blurred(std::span<const cl_uint> landed) {
   constexpr int side = AIM_SIDE;
+  const auto index = [](int row, int column) {
+    return static_cast<std::size_t>(row) * AIM_SIDE + static_cast<std::size_t>(column);
+  };
   std::vector<double> result(landed.size());
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
-          const int from = std::clamp(row + j, 0, side - 1) * side + std::clamp(column + i, 0, side - 1);
-          result[static_cast<std::size_t>(row * side + column)] +=
-              (j == 0 ? 2 : 1) * (i == 0 ? 2 : 1) * landed[static_cast<std::size_t>(from)] / 16.0;
+          const std::size_t from =
+              index(std::clamp(row + j, 0, side - 1), std::clamp(column + i, 0, side - 1));
+          result[index(row, column)] += (j == 0 ? 2 : 1) * (i == 0 ? 2 : 1) * landed[from] / 16.0;
         }
   return result;
 }
@@ -62,16 +67,16 @@ PhotonAim::PhotonAim(Device& device, std::uint32_t emitters, std::uint32_t photo
     : device_(device),
       squares_(std::min(emitters, AIM_SQUARES)),
       scouts_(aimed && emitters > 0 ? std::clamp(photons, least_scouts, most_scouts) : 0),
-      landed_(device.buffer(squares_ * AIM_CELLS * sizeof(cl_uint), "aim of photons")) {
-  device_.clear(landed_, squares_ * AIM_CELLS * sizeof(cl_uint));
+      landed_(device.buffer(sizeof(cl_uint) * squares_ * cells_of_square, "aim of photons")) {
+  device_.clear(landed_, sizeof(cl_uint) * squares_ * cells_of_square);
   learn();
 }
 
 void PhotonAim::learn() {
-  const auto landed = device_.download<cl_uint>(landed_, squares_ * AIM_CELLS);
+  const auto landed = device_.download<cl_uint>(landed_, squares_ * cells_of_square);
   std::vector<AimCell> cells;
-  for (std::uint32_t square = 0; square < squares_; ++square) {
-    const auto one = aim_cells({landed.data() + square * AIM_CELLS, AIM_CELLS}, aimed_share);
+  for (std::size_t square = 0; square < squares_; ++square) {
+    const auto one = aim_cells({landed.data() + square * cells_of_square, cells_of_square}, aimed_share);
     cells.insert(cells.end(), one.begin(), one.end());
   }
   cells_ = device_.upload(cells, "aim of photons");
