@@ -14,7 +14,7 @@ constexpr double aimed_share = 0.2;
 // of millions need not be taken twice.
 constexpr std::uint32_t least_scouts = 1 << 14, most_scouts = 1 << 16;
 
-constexpr std::size_t cells_of_square{AIM_CELLS};
+constexpr std::size_t cells_of_square = std::size_t{AIM_SIDE} * AIM_SIDE;
 
 /// Each cell with the eight beside it, by weights 1 2 1: what scouts just missed is not left to the few
 /// photons that carry much. Cells beyond the border are those at it.
