@@ -18,7 +18,7 @@ std::vector<AimCell> aim_cells(std::span<const cl_uint> landed, double share);
 class PhotonAim {
  public:
   /// For passes of `photons` photons, which are not aimed until learn(). Without `aimed` no scout is asked
-  /// for.
+  /// for; with no emitters, as for kernels that take no aim, there is nothing on the device either.
   PhotonAim(Device& device, std::uint32_t emitters, std::uint32_t photons, bool aimed);
 
   /// Photons to be traced before the first pass, in role PHOTONS_TO_AIM_BY.

@@ -79,7 +79,6 @@ void PhotonMap::launch_all(Params params) {
 }
 
 void PhotonMap::take_aim(Params params) {
-  if (aim_.scouts() == 0) return;
   constexpr uint beyond_passes = 0xffffffff;  // numbers of their own
   params.pass = beyond_passes;
   params.photon_role = PHOTONS_TO_AIM_BY;

@@ -19,8 +19,7 @@ class PhotonMap {
   /// Waits until the kernel that traces photons is built.
   void prepare();
 
-  /// Only after prepare(), before the first pass: traces the scouts that photons are aimed by, if there are
-  /// any.
+  /// Only after prepare(), before the first pass: traces the scouts that photons are aimed by.
   void take_aim(Params params);
 
   /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are scouts

@@ -33,7 +33,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       counters_(device.buffer(sizeof(Counters), "counters")),
       guide_(device_scene, device, programs, static_cast<std::uint32_t>(scene.renderer.photons),
              scene.renderer.guided_photons && with_photons),
-      aim_(device, device_scene.emitter_count, static_cast<std::uint32_t>(scene.renderer.photons),
+      aim_(device, (programs.options().effects & EFFECT_AIMED_PHOTONS) ? device_scene.emitter_count : 0,
+           static_cast<std::uint32_t>(scene.renderer.photons),
            with_photons && (effect_bits(find_effects(scene)) & EFFECT_AIMED_PHOTONS)),
       photon_map_(device_scene, device, programs, counters_, guide_, aim_),
       with_photons_(with_photons && params_.emitter_count > 0),
@@ -56,9 +57,6 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   // The first pass begins here, while programs that it needs later are still being built.
   if (with_photons_) photon_map_.prepare();
   began_ = Clock::now();
-  begin(0);
-  if (with_photons_) photon_map_.take_aim(params_);
-  totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // scouts are no part of the first pass
   start_pass(0);
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
   trace_camera_ = programs.kernel("camera", "trace_camera");
@@ -79,17 +77,17 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   device_.launch_pass(start_pixels, film_.pixels());
 }
 
-/// Places what moves for the pass.
-void Sppm::begin(std::uint32_t pass) {
+/// Places what moves for the pass and traces its photons, unless that has been done; before the first also
+/// the scouts by which photons are aimed.
+void Sppm::start_pass(std::uint32_t pass) {
+  if (started_pass_ == pass) return;
   begin_pass(params_, pass);
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
-}
-
-/// Begins the pass and traces its photons, unless that has been done.
-void Sppm::start_pass(std::uint32_t pass) {
-  if (started_pass_ == pass) return;
-  begin(pass);
+  if (pass == 0 && aim_.scouts() > 0) {
+    photon_map_.take_aim(params_);
+    totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // scouts are no part of the pass
+  }
   const auto emission = guide_.emission(pass);
   params_.photon_role = emission.role;
   params_.first_photon = static_cast<uint>(share_.first_of(emission.photons));

@@ -56,7 +56,6 @@ class Sppm : public PassIntegrator {
   double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
-  void begin(std::uint32_t pass);
   void start_pass(std::uint32_t pass);
   void trace_visible_points(const Params& params);
   double choose_first_radius(Programs& programs, double extent);
