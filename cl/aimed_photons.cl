@@ -2,8 +2,9 @@
 // the scene, by two numbers: a point of the unit square. Before the first pass scouts tell into which cells of that
 // square those fall that become caustics, and from then on photons are drawn from these more often, with so much less
 // flux each. A caustic is then made of more photons, and all else of somewhat fewer, in expectation of the same light. It
-// is the projection map of Jensen ("Realistic Image Synthesis Using Photon Mapping", 2001, section 5.3), learned from photons as
-// by Peter & Pietrek ("Importance Driven Construction of Photon Maps", EGWR 1998): no matter what the scene is made of.
+// is the projection map of Jensen ("Realistic Image Synthesis Using Photon Mapping", 2001, section 5.3), learned from
+// photons as by Peter & Pietrek ("Importance Driven Construction of Photon Maps", EGWR 1998): no matter what the scene is
+// made of.
 #include "prelude.cl"
 #include "types.h"
 

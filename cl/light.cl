@@ -219,9 +219,9 @@ INLINE uint photon_emitter(const Scene *scene, RandomStream stream) {
   return emitter_choose(scene, choice.x, choice.w);
 }
 
-// Starts a photon of an emitter: point by area, direction by cosine, which u and v draw, uniform numbers. Returns its ray; *flux is relative to
-// Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point and directional lights;
-// about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
+// Starts a photon of an emitter: point by area, direction by cosine, which u and v draw, uniform numbers. Returns its
+// ray; *flux is relative to Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point
+// and directional lights; about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
 INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream, real u, real v, real3 *flux) {
   real4 choice = random4(stream, DIM_EMITTER);
   global const Emitter *emitter = scene->emitters + chosen;

@@ -55,7 +55,7 @@ typedef struct {
 // A photon that landed on a diffuse surface, or that the medium scatters, as traced. Flux is quantised with unbiased
 // dithering in units of Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
 // Sixteen bits hold 16 times the flux of an emitted photon, which is as far as the factors of shading normals go: up to
-// 4, and 3 where dispersion or the medium made one channel of three.
+// 4, 3 where dispersion or the medium made one channel of three, and 1.25 for photons that are aimed.
 #define PHOTON_FLUX_UNIT 4096.0f
 typedef struct {
   real position[3];

@@ -23,6 +23,8 @@ const char* name_of(Schedule schedule) {
   return schedule == Schedule::pixel ? "pixel" : schedule == Schedule::global ? "global" : "geometric";
 }
 
+const char* name_of(bool on) { return on ? "true" : "false"; }
+
 const char* name_of(Sampler sampler) { return sampler == Sampler::sobol ? "sobol" : "independent"; }
 
 /// Every image texture inside materials, as keys joined by dots: those have a filter.
@@ -120,26 +122,25 @@ const std::vector<Knob>& study_knobs() {
       {"boundary_correction", "Boundary correction", "",
        "Edges and corners cut off a part of what photons are counted in: it is either measured by one more "
        "ray, or left dark.",
-       true, [](Context c) { return std::string(c.scene.renderer.boundary_correction ? "true" : "false"); },
+       true, [](Context c) { return std::string(name_of(c.scene.renderer.boundary_correction)); },
        [](Context c) {
-         return overrides("renderer.boundary_correction",
-                          c.scene.renderer.boundary_correction ? "true" : "false", {"true", "false"});
+         return overrides("renderer.boundary_correction", name_of(c.scene.renderer.boundary_correction),
+                          {"true", "false"});
        }},
       {"guided_photons", "Guided photons", "",
        "Photons that land where the camera sees are copied with slight changes: more of them where few come "
        "so far, in place of some that could have been traced anew.",
-       true, [](Context c) { return std::string(c.scene.renderer.guided_photons ? "true" : "false"); },
+       true, [](Context c) { return std::string(name_of(c.scene.renderer.guided_photons)); },
        [](Context c) {
-         return overrides("renderer.guided_photons", c.scene.renderer.guided_photons ? "true" : "false",
+         return overrides("renderer.guided_photons", name_of(c.scene.renderer.guided_photons),
                           {"false", "true"});
        }},
       {"aimed_photons", "Aimed photons", "",
        "Photons are sent more often where they become caustics: these have less noise, and the rest a little "
        "more.",
-       true, [](Context c) { return std::string(aims_photons(c.scene) ? "true" : "false"); },
+       true, [](Context c) { return std::string(name_of(aims_photons(c.scene))); },
        [](Context c) {
-         return overrides("renderer.aimed_photons", aims_photons(c.scene) ? "true" : "false",
-                          {"true", "false"});
+         return overrides("renderer.aimed_photons", name_of(aims_photons(c.scene)), {"true", "false"});
        }},
       {"direct_light", "Direct light", "",
        "Light that comes straight from a lamp can be found by shadow rays, or by photons like all other "
