@@ -206,3 +206,12 @@ TEST_CASE("aimed photons make the same picture with less noise where light is fo
     CHECK(*fifth < 0.3);
   }
 }
+
+TEST_CASE("scouts are no part of what the passes are reported to have traced") {
+  const auto rays = [](int passes) {
+    return static_cast<double>(
+        render_with(ball_of_glass(true, true), Integrator::sppm, passes).statistics.rays);
+  };
+  // As many each pass, but for chance.
+  CHECK(rays(4) == Approx(4 * rays(1)).epsilon(0.1));
+}
