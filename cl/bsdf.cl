@@ -60,7 +60,7 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
   bool same_side = dot3(sample.direction, surface->geometric_normal) * dot3(arriving, surface->geometric_normal) < 0;
   sample.weight = choose3(same_side, bsdf->color, (real3)(0, 0, 0));
   if (HAS(EFFECT_PLASTIC) && bsdf->coated)
-    sample.weight *= fresnel_transmittance(dot(sample.direction, n), bsdf->ior);
+    sample.weight *= fresnel_transmittance(dot3(sample.direction, n), bsdf->ior);
   return sample;
 }
 
@@ -155,16 +155,16 @@ INLINE Facing facing_frame(const Bsdf *bsdf, const Surface *surface, real3 arriv
   Facing facing;
   orthonormal_basis(n, &facing.tangent, &facing.bitangent);
   facing.n = n;
-  facing.v = -(real3)(dot(arriving, facing.tangent), dot(arriving, facing.bitangent), dot(arriving, n));
+  facing.v = -(real3)(dot3(arriving, facing.tangent), dot3(arriving, facing.bitangent), dot3(arriving, n));
   facing.v.z = fmax(facing.v.z, GRAZING_COSINE);
-  facing.eta = dot(surface->geometric_normal, arriving) < 0 ? bsdf->ior : 1 / bsdf->ior;
+  facing.eta = dot3(surface->geometric_normal, arriving) < 0 ? bsdf->ior : 1 / bsdf->ior;
   return facing;
 }
 
 // Weight and density of the direction `leaving` off microfacets with the normal h, both in the local frame.
 INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leaving, real3 h, bool radiance) {
   BsdfSample sample = {leaving, (real3)(0, 0, 0), 0};
-  real cosine = fmin(dot(facing->v, h), (real)1), cosine_t;
+  real cosine = fmin(dot3(facing->v, h), (real)1), cosine_t;
   if (!(cosine > 0)) return sample;
   real density = ggx_visible_density(facing->v, h, bsdf->alpha);
   real shadowing = ggx_shadowing(facing->v, leaving, bsdf->alpha);
@@ -187,13 +187,13 @@ INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leavi
 // The lobe in a direction that light sampling chose: weight * pdf is BSDF * cosine, pdf that of bsdf_sample.
 INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real3 direction) {
   Facing facing = facing_frame(bsdf, surface, arriving, n);
-  real3 leaving = (real3)(dot(direction, facing.tangent), dot(direction, facing.bitangent), dot(direction, n));
+  real3 leaving = (real3)(dot3(direction, facing.tangent), dot3(direction, facing.bitangent), dot3(direction, n));
   real3 h = microfacet_normal(facing.v, leaving, facing.eta);
   // A shading normal may see a direction on the other side than the true surface does: nothing goes there. Nor does
   // a microfacet refract what would leave on the side that it came from (Walter et al. 2007, section 4.2).
   real3 g = surface->geometric_normal;
-  bool reflected = dot(direction, g) * dot(arriving, g) < 0;
-  if (reflected != leaving.z > 0 || (!reflected && !(dot(leaving, h) < 0))) {
+  bool reflected = dot3(direction, g) * dot3(arriving, g) < 0;
+  if (reflected != leaving.z > 0 || (!reflected && !(dot3(leaving, h) < 0))) {
     BsdfSample nothing = {direction, (real3)(0, 0, 0), 0};
     return nothing;
   }
@@ -206,14 +206,14 @@ INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 a
                                bool radiance) {
   Facing facing = facing_frame(bsdf, surface, arriving, n);
   real3 v = facing.v, h = ggx_visible_normal(v, bsdf->alpha, random.xy);
-  real cosine = fmin(dot(v, h), (real)1), cosine_t;
+  real cosine = fmin(dot3(v, h), (real)1), cosine_t;
   bool refracts = HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS &&
                   random.z >= fresnel_dielectric(cosine, facing.eta, &cosine_t);
   real3 leaving = normalize(refracts ? (cosine / facing.eta - cosine_t) * h - v / facing.eta : 2 * cosine * h - v);
   BsdfSample sample = rough_lobe(bsdf, &facing, leaving, h, radiance);
   sample.direction = normalize(leaving.x * facing.tangent + leaving.y * facing.bitangent + leaving.z * n);
   real3 g = surface->geometric_normal;
-  bool reflected = dot(sample.direction, g) * dot(arriving, g) < 0;
+  bool reflected = dot3(sample.direction, g) * dot3(arriving, g) < 0;
   if (refracts == leaving.z > 0 || refracts == reflected) sample.weight = (real3)(0, 0, 0);
   return sample;
 }
@@ -223,7 +223,7 @@ INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 a
 // the sum over inner reflections of Kubelka 1942). Makes the material one of its lobes, chosen by `random`, its
 // weight divided by the probability.
 INLINE void plastic_choose(Bsdf *bsdf, real3 arriving, real3 n, real random) {
-  real transmittance = fresnel_transmittance(-dot(arriving, n), bsdf->ior);
+  real transmittance = fresnel_transmittance(-dot3(arriving, n), bsdf->ior);
   real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->inner));
   real coat = 1 - transmittance, share = coat + max_component(base);
   coat = share > 0 ? coat / share : 1;
@@ -272,7 +272,7 @@ INLINE BsdfSample bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 di
     return sample;
   }
   if (HAS(EFFECT_CONDUCTOR | EFFECT_PLASTIC) && bsdf->kind != MATERIAL_DIFFUSE) {
-    BsdfSample sample = {mirror_direction(surface, direction, n), specular_tint(bsdf, -dot(direction, n)), 0};
+    BsdfSample sample = {mirror_direction(surface, direction, n), specular_tint(bsdf, -dot3(direction, n)), 0};
     return sample;
   }
   return diffuse_sample(bsdf, surface, direction, n, random);
@@ -311,7 +311,7 @@ INLINE real shading_normal_departure(const Surface *surface, real3 direction, re
 
 // Emitted radiance towards where `direction` came from.
 INLINE real3 emission_at(global const Material *material, const Surface *surface, real3 direction) {
-  bool front = dot(surface->geometric_normal, direction) < 0;
+  bool front = dot3(surface->geometric_normal, direction) < 0;
   if (!front && !(material->flags & MATERIAL_TWO_SIDED)) return (real3)(0, 0, 0);
   return convert_real3(material->emission.xyz);
 }

@@ -36,10 +36,10 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
                                       real4 random, real3 *origin) {
   *origin = offset_origin(surface->position, surface->error, facing, facing);
   LightSample light = light_sample(scene, *origin, random);
-  if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS && dot(light.direction, facing) < 0) {
+  if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS && dot3(light.direction, facing) < 0) {
     *origin = offset_origin(surface->position, surface->error, facing, -facing);
     light = light_sample(scene, *origin, random);
-    if (!(dot(light.direction, facing) < 0)) light.weight = (real3)(0, 0, 0);
+    if (!(dot3(light.direction, facing) < 0)) light.weight = (real3)(0, 0, 0);
   }
   return light;
 }
@@ -49,7 +49,7 @@ static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surf
                                 real3 arriving, real3 n, real3 throughput, real4 random, uint *rays,
                                 volatile global Counters *counters) {
   real3 g = surface->geometric_normal, origin;
-  LightSample light = light_sample_rough(scene, bsdf, surface, dot(arriving, g) < 0 ? g : -g, random, &origin);
+  LightSample light = light_sample_rough(scene, bsdf, surface, dot3(arriving, g) < 0 ? g : -g, random, &origin);
   if (!(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
   BsdfSample lobe = rough_evaluate(bsdf, surface, arriving, n, light.direction);
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
@@ -68,11 +68,11 @@ static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *s
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
   real3 g = surface->geometric_normal;
-  real3 origin = offset_origin(surface->position, surface->error, g, dot(arriving, g) < 0 ? g : -g);
+  real3 origin = offset_origin(surface->position, surface->error, g, dot3(arriving, g) < 0 ? g : -g);
   LightSample light = light_sample(scene, origin, random);
-  real cosine = dot(light.direction, n);
+  real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
-  bool same_side = dot(light.direction, g) * dot(arriving, g) < 0;
+  bool same_side = dot3(light.direction, g) * dot3(arriving, g) < 0;
   if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
   if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
@@ -100,7 +100,7 @@ static real3 direct_light_medium(const Scene *scene, real3 position, real3 arriv
   if (!(max_component(light.weight * throughput) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {position, light.direction};
   if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
-  real phase = phase_density(scene->medium.g, dot(light.direction, arriving));
+  real phase = phase_density(scene->medium.g, dot3(light.direction, arriving));
   real weight = weigh_phase ? power_weight(light.pdf, phase) : 1;
   return throughput * light.weight * transmittance(scene->medium.extinction, light.distance) * (phase * weight);
 }

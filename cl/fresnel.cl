@@ -15,7 +15,8 @@ INLINE real fresnel_dielectric(real cosine, real eta, real *cosine_t) {
   *cosine_t = fmin(c, (real)1);
   real parallel = (eta * cosine - c) / (eta * cosine + c);
   real perpendicular = (cosine - eta * c) / (cosine + eta * c);
-  return (real)0.5 * (parallel * parallel + perpendicular * perpendicular);
+  // Divisions need not be exact: OpenCL allows 2.5 ulp, by which a sum of squares can pass 1.
+  return fmin((real)0.5 * (parallel * parallel + perpendicular * perpendicular), (real)1);
 }
 
 // Share of the light that a smooth boundary to the index `eta` lets through.

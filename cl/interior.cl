@@ -23,7 +23,7 @@ INLINE Interior interior_of(global const Material *material) {
 // wherever the path began; one that is met from the front, or is not of glass, leaves it as the last boundary told.
 INLINE Interior interior_before(Interior interior, global const Material *material, const Surface *surface,
                                 real3 direction) {
-  bool behind = material->kind == MATERIAL_GLASS && dot(direction, surface->geometric_normal) > 0;
+  bool behind = material->kind == MATERIAL_GLASS && dot3(direction, surface->geometric_normal) > 0;
   return behind ? interior_of(material) : interior;
 }
 
@@ -31,7 +31,7 @@ INLINE Interior interior_before(Interior interior, global const Material *materi
 INLINE Interior interior_after(Interior interior, global const Material *material, const Surface *surface,
                                real3 direction) {
   if (material->kind != MATERIAL_GLASS) return interior;
-  return dot(direction, surface->geometric_normal) < 0 ? interior_of(material) : interior_none();
+  return dot3(direction, surface->geometric_normal) < 0 ? interior_of(material) : interior_none();
 }
 
 // Share of light that is left after `distance` inside of glass; outside all of it.

@@ -131,14 +131,14 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
   real3 radiance = convert_real3(emitter->radiance.xyz);
   if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
     real3 to_centre = convert_real3(emitter->a.xyz) - position;
-    real radius = emitter->a.w, distance2 = dot(to_centre, to_centre);
+    real radius = emitter->a.w, distance2 = dot3(to_centre, to_centre);
     if (distance2 > radius * radius * (real)1.0002f) {
       real sine2 = radius * radius / distance2;
       real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
       sample.direction = cone_uniform(random.yz, to_centre / sqrt(distance2), one_minus_cos);
-      real along = dot(to_centre, sample.direction);
+      real along = dot3(to_centre, sample.direction);
       real3 miss = to_centre - along * sample.direction;
-      real half_chord = sqrt(max((real)0, radius * radius - dot(miss, miss)));
+      real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
       sample.distance = along - half_chord;
       sample.pdf = emitter->probability / (2 * PI * one_minus_cos);
       // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
@@ -152,11 +152,11 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
   real error, area_pdf;
   real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
   real3 to_light = point - position;
-  real distance2 = dot(to_light, to_light);
+  real distance2 = dot3(to_light, to_light);
   if (!(distance2 > 0) || !(area_pdf > 0)) return sample;
   sample.distance = sqrt(distance2);
   sample.direction = to_light / sample.distance;
-  real cosine = -dot(sample.direction, normal);
+  real cosine = -dot3(sample.direction, normal);
   if (emitter->two_sided) cosine = fabs(cosine);
   if (!(cosine > 0)) return sample;
   // An error of the surface's place moves the hit by 1 / cosine times as much.
@@ -179,7 +179,7 @@ static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit
     if (HAS(EFFECT_PLANES) && shape->type == SHAPE_PLANE) return 0;
     if (HAS(EFFECT_SPHERES) && shape->type == SHAPE_SPHERE) {
       real3 to_centre = convert_real3(shape->sphere.xyz) - origin;
-      real radius = shape->sphere.w, distance2 = dot(to_centre, to_centre);
+      real radius = shape->sphere.w, distance2 = dot3(to_centre, to_centre);
       if (distance2 > radius * radius * (real)1.0002f) {
         real sine2 = radius * radius / distance2;
         return area_pdf * 4 * PI * radius * radius / (2 * PI * (sine2 / (1 + sqrt(1 - sine2))));
@@ -194,7 +194,7 @@ static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit
       area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, surface->uv.y) / area : 0;
     }
   }
-  real cosine = fabs(dot(direction, surface->geometric_normal));
+  real cosine = fabs(dot3(direction, surface->geometric_normal));
   return cosine > 0 ? area_pdf * hit.t * hit.t / cosine : 0;
 }
 

@@ -30,7 +30,7 @@ INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 
   *distance = extinction > 0 ? -log1p(-random.y) / extinction : (real)INFINITY;
   bool interacts = *distance < t_max;
   real3 left = transmittance(medium->extinction, interacts ? *distance : t_max);
-  *carried *= left / (interacts ? dot(share, medium->extinction * left) : dot(share, left));
+  *carried *= left / (interacts ? dot3(share, medium->extinction * left) : dot3(share, left));
   return interacts;
 }
 
@@ -42,7 +42,7 @@ INLINE real3 medium_segment(const Medium *medium, real3 carried, real t_max, rea
   *begin = floor(distance / segment) * segment;
   *length = fmin(segment, t_max - *begin);
   real3 left = transmittance(medium->extinction, *begin);
-  real probability = dot(carried, -left * expm1(-medium->extinction * *length)) / (carried.x + carried.y + carried.z);
+  real probability = dot3(carried, -left * expm1(-medium->extinction * *length)) / (carried.x + carried.y + carried.z);
   return probability > 0 ? carried * left / probability : (real3)(0, 0, 0);
 }
 

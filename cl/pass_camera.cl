@@ -102,7 +102,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
-      real3 side = dot(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
+      real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | receiver_mark(history);
       if (params->coverage && coverage_wanted(pixels[pixel].coverage, pixel, params->pass,
                                               sample == params->pass % params->visible_points)) {

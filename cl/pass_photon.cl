@@ -92,7 +92,7 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
     real3 landed = arrived;
-    if (plastic) landed *= fresnel_transmittance(-dot(direction, n), bsdf.ior);
+    if (plastic) landed *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
     uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
                                 photon->history, random_at(stream, depth, DIM_QUANTISE), record);

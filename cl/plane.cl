@@ -12,7 +12,7 @@ INLINE real3 plane_centre(global const Shape *shape) {
 // The t > 0 where the ray meets the plane, below t_max, or INFINITY. A ray in the plane does not meet it.
 INLINE real plane_intersect(global const Shape *shape, Ray ray, real t_max) {
   real3 row = convert_real3(shape->to_local[2].xyz);
-  real t = dot(row, plane_centre(shape) - ray.origin) / dot(row, ray.direction);
+  real t = dot3(row, plane_centre(shape) - ray.origin) / dot3(row, ray.direction);
   return t > 0 && t < t_max ? t : (real)INFINITY;
 }
 
@@ -24,12 +24,12 @@ INLINE void plane_position(global const Shape *shape, Ray ray, Hit hit, Surface 
   real3 n = row / row_length;
   real3 p = fma((real3)(hit.t), ray.direction, ray.origin);
   real3 from_centre = p - plane_centre(shape);
-  p -= n * (dot(row, from_centre) / row_length);
+  p -= n * (dot3(row, from_centre) / row_length);
   surface->position = p;
   // Rounding of <row, p - centre> (four differences, products and sums), once in the projection and once in the
   // next intersection of a ray spawned here, and of p itself.
   surface->error =
-      GAMMA(8) * dot(fabs(row), fabs(from_centre)) / row_length + GAMMA(2) * max_component(fabs(p));
+      GAMMA(8) * dot3(fabs(row), fabs(from_centre)) / row_length + GAMMA(2) * max_component(fabs(p));
   surface->geometric_normal = surface->shading_normal = n;
 }
 
@@ -40,5 +40,5 @@ INLINE void plane_surface(global const Shape *shape, Ray ray, Hit hit, Surface *
   real3 x_axis = normalize((real3)(rows[0].x, rows[1].x, rows[2].x));
   real3 y_axis = normalize((real3)(rows[0].y, rows[1].y, rows[2].y));
   real3 from_origin = surface->position - plane_centre(shape);
-  surface->uv = (real2)(dot(x_axis, from_origin), dot(y_axis, from_origin));
+  surface->uv = (real2)(dot3(x_axis, from_origin), dot3(y_axis, from_origin));
 }

@@ -75,14 +75,17 @@ INLINE int8 mask_lanes(mask8 m) {
 }
 
 INLINE real max_component(real3 v) { return max(v.x, max(v.y, v.z)); }
+// Rounded after each product and sum, from left to right. dot() is the device's own, which GPUs fuse: where two kernels,
+// or one ray and a packet, must agree to the bit or on a sign, they take this.
+INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // Rows of an affine map applied to a point and to a direction.
 INLINE real3 transform_point(global const float4 *rows, real3 p) {
   real3 r0 = convert_real3(rows[0].xyz), r1 = convert_real3(rows[1].xyz), r2 = convert_real3(rows[2].xyz);
-  return (real3)(dot(r0, p) + rows[0].w, dot(r1, p) + rows[1].w, dot(r2, p) + rows[2].w);
+  return (real3)(dot3(r0, p) + rows[0].w, dot3(r1, p) + rows[1].w, dot3(r2, p) + rows[2].w);
 }
 INLINE real3 transform_vector(global const float4 *rows, real3 v) {
-  return (real3)(dot(convert_real3(rows[0].xyz), v), dot(convert_real3(rows[1].xyz), v),
-                 dot(convert_real3(rows[2].xyz), v));
+  return (real3)(dot3(convert_real3(rows[0].xyz), v), dot3(convert_real3(rows[1].xyz), v),
+                 dot3(convert_real3(rows[2].xyz), v));
 }
 // A normal by the transpose of the inverse's rows: n_world = to_local^T n_local (not normalised).
 INLINE real3 transform_normal(global const float4 *inverse_rows, real3 n) {

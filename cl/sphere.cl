@@ -10,19 +10,19 @@
 INLINE real sphere_intersect(global const Shape *shape, Ray ray, real t_max) {
   real radius = shape->sphere.w;
   real3 f = ray.origin - convert_real3(shape->sphere.xyz);
-  real b = -dot(f, ray.direction);  // t of the closest approach
+  real b = -dot3(f, ray.direction);  // t of the closest approach
   real3 approach = fma((real3)(b), ray.direction, f);
   // What rounding of b, and a direction not quite of unit length, leave of the way there.
-  real rest = dot(approach, ray.direction);
+  real rest = dot3(approach, ray.direction);
   b -= rest;
   approach = fma((real3)(-rest), ray.direction, approach);
-  real discriminant = radius * radius - dot(approach, approach);
+  real discriminant = radius * radius - dot3(approach, approach);
   if (!(discriminant >= 0)) return INFINITY;
 
   // Of the two roots q is the larger in magnitude; near a tangent at the origin c / q is noise over noise. Seen from
   // afar b loses nothing, and c / q would carry the rounding of c, q and the division.
   real root = copysign(sqrt(discriminant), b), q = b + root;
-  real c = dot(f, f) - radius * radius;
+  real c = dot3(f, f) - radius * radius;
   real other = c > 3 * radius * radius ? b - root : clamp(c / q, -fabs(q), fabs(q));
   real near = min(q, other), far = max(q, other);
   real t = near > 0 ? near : far;

@@ -1,7 +1,7 @@
 // Arithmetic of real3 component by component. Compilers that turn loops over paths into vector code (PoCL's) take
 // scalars alone: a loop that holds an operation on a real3, or merges two of them where branches meet, stays scalar.
 // What a loop over a wave of photons calls is therefore written with these; a real3 that is only made and taken apart
-// costs nothing. Sums go from left to right, as those of the operators and of dot().
+// costs nothing. Sums go from left to right, as those of dot3().
 #ifndef CAUSTICL_VECTOR_CL
 #define CAUSTICL_VECTOR_CL
 
@@ -17,7 +17,6 @@ INLINE real3 abs3(real3 v) { return (real3)(fabs(v.x), fabs(v.y), fabs(v.z)); }
 INLINE real3 along3(real3 origin, real t, real3 direction) {
   return (real3)(fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z));
 }
-INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 INLINE real3 cross3(real3 a, real3 b) {
   return (real3)(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }

@@ -57,8 +57,11 @@ class Checkpoints {
  public:
   explicit Checkpoints(Integrator integrator) : integrator_(integrator), last_(Clock::now()) {}
 
-  bool due(std::uint64_t pass) {
-    const bool early = integrator_ == Integrator::sppm && pass <= 64 && (pass & (pass - 1)) == 0;
+  /// The early ones are left out where writing, which takes `write_seconds`, would be over a tenth of the
+  /// time.
+  bool due(std::uint64_t pass, double write_seconds) {
+    const bool early = integrator_ == Integrator::sppm && pass <= 64 && (pass & (pass - 1)) == 0 &&
+                       seconds_since(last_) >= 10 * write_seconds;
     const bool regular = integrator_ == Integrator::pt || pass - last_pass_ >= 64;
     if (!early && !(regular && seconds_since(last_) >= 30)) return false;
     last_ = Clock::now();
@@ -279,7 +282,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
       statistics.stop = StopReason::time;
       break;
     }
-    if (!options.outputs.empty() && checkpoints.due(pass + 1)) {
+    if (!options.outputs.empty() && checkpoints.due(pass + 1, longest_write)) {
       try {
         write(film.picture(statistics.passes));
       } catch (const UserError& error) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "bench/bench_ceilings.hpp"
 #include "bench/bench_render.hpp"
 #include "bench/bench_traversal.hpp"
 #include "error.hpp"
@@ -23,6 +24,8 @@ int main(int argc, char** argv) {
   app.add_option("--triangles", traversal.generated, "sizes of the generated meshes");
   app.add_option("--repetitions", traversal.repetitions, "runs, of which the median counts");
   app.add_option("--kernel-dir", traversal.kernel_dir, "read kernels from here");
+  app.add_option("--passes", passes, "passes of each render, the first of which is not counted")
+      ->check(CLI::Range(2, 100000));
   app.add_flag("--quick", quick, "fewer rays, the smaller mesh alone");
   CLI11_PARSE(app, argc, argv);
   if (quick) {
@@ -40,6 +43,8 @@ int main(int argc, char** argv) {
         "start  until the first pass is done: %.2f s with an empty kernel cache (%.2f building), %.2f s with "
         "a full one (%.2f)\n",
         start.cold, start.cold_build, start.warm, start.warm_build);
+    const Ceilings ceilings = bench_ceilings(device);
+    std::cout << ceilings_text(ceilings);
     const auto renders = bench_render(device, passes);
     std::cout << render_table(renders) << std::flush;
     const auto several = bench_several(device.info(), passes);
@@ -52,6 +57,8 @@ int main(int argc, char** argv) {
     if (!json_file.empty()) {
       auto json = traversal_json(bench);
       json["device"] = device.info().name;
+      json["ceilings"] = {{"copied_bytes_per_second", ceilings.copied},
+                          {"operations_per_second", ceilings.operations}};
       json["sppm"] = render_json(renders);
       json["start"] = {{"cold_seconds", start.cold},
                        {"cold_build_seconds", start.cold_build},

@@ -39,15 +39,15 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
   // A device of its own, so that kernel times are of this run alone.
   Device fresh(device.info());
   Stopwatch watch;
-  Elapsed start;
+  Elapsed start, end;  // of all passes but the first; the picture is made after them
   double kernels_before = 0, passes_before = 0;
   const auto rendered = render_scene(scene, fresh, {}, [&](const Progress& progress) {
+    end = watch.elapsed();
     if (progress.pass != 1) return;
-    start = watch.elapsed();
+    start = end;
     kernels_before = kernel_seconds(fresh);
     passes_before = progress.pass_seconds;
   });
-  const Elapsed end = watch.elapsed();
   result.statistics = rendered.statistics;
   result.seconds_per_pass = (end.wall - start.wall) / (passes - 1);
   result.cpu_seconds_per_pass = (end.cpu - start.cpu) / (passes - 1);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "device_fixture.hpp"
 #include "small_render.hpp"
 
 using namespace causticl;
@@ -113,10 +114,11 @@ TEST_CASE("kernels are kept where the environment says") {
   CHECK(names_in(folder.path("home/.cache/causticl")).size() == 5);
   run({{"CAUSTICL_CACHE_DIR", "relative"}, {"POCL_CACHE_DIR", ""}});
   CHECK(names_in(folder.path("relative")).size() == 5);
-  // A user who has a folder for PoCL has it filled, and nothing else.
+  // A user who has a folder for PoCL has it filled, and nothing else; to other drivers it means nothing.
   run({{"CAUSTICL_CACHE_DIR", folder.path("own")}, {"POCL_CACHE_DIR", folder.path("pocl")}});
-  CHECK(names_in(folder.path("own")).empty());
-  CHECK(!names_in(folder.path("pocl")).empty());
+  const bool pocl = test_device().info().platform_name == "Portable Computing Language";
+  CHECK(names_in(folder.path("own")).empty() == pocl);
+  if (pocl) CHECK(!names_in(folder.path("pocl")).empty());
 }
 
 TEST_CASE("a folder that cannot be written to is a note, not an end") {

@@ -103,10 +103,13 @@ TEST_CASE("--stats-json is one object whose numbers agree with the options") {
   const double seconds = stats.at("seconds");
   CHECK(seconds > 0);
   CHECK(seconds < run.seconds);
-  for (const char* key : {"first_pass_seconds", "kernel_build_seconds", "tree_build_seconds"}) {
+  for (const char* key : {"first_pass_seconds", "tree_build_seconds"}) {
     CHECK(stats.at(key) >= 0);
     CHECK(stats.at(key) <= seconds);
   }
+  // A sum over programs, of which some drivers build several at a time.
+  CHECK(stats.at("kernel_build_seconds") >= 0);
+  CHECK(stats.at("kernel_build_seconds") <= seconds * static_cast<double>(stats.at("programs").size()));
   REQUIRE(stats.at("kernels").size() > 3);
   double milliseconds = 0;
   for (const auto& [kernel, time] : stats.at("kernels").items()) milliseconds += time.get<double>();

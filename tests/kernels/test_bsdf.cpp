@@ -37,7 +37,7 @@ kernel void sample(global const Input *in, global Output *out, uint count, uint 
   out[i].direction = (float4)(next.direction, next.pdf);
   out[i].weight = (float4)(next.weight, 0);
   out[i].facing = (float4)(n, 0);
-  out[i].side = (float4)(dot(d, surface.geometric_normal), dot(next.direction, surface.geometric_normal), 0, 0);
+  out[i].side = (float4)(dot3(d, surface.geometric_normal), dot3(next.direction, surface.geometric_normal), 0, 0);
   out[i].photon = (float4)(shading_normal_arrival(&surface, d), shading_normal_departure(&surface, next.direction, n),
                            emission_at(lights, &surface, d).x, emission_at(lights + 1, &surface, d).x);
 }

@@ -160,7 +160,7 @@ TEST_CASE("cone_uniform is uniform within its cone, narrow or wide") {
     Histogram histogram = flat(bins);
     std::size_t wrong = 0;
     for (const Vec3 v : warp(uniform, cone, axis)) {
-      wrong += std::fabs(length(v) - 1) > 3e-7;
+      wrong += std::fabs(length(v) - 1) > 4e-7;  // OpenCL grants normalize() 5 ulp
       // 1 - cos = |v - axis|^2 / 2 without cancellation.
       const Vec3 chord = normalize(v) - exact_axis, local = frame.to_local(v);
       const double drop = dot(chord, chord) / 2;
