@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "checkpoints.hpp"
 #include "effects.h"
 #include "effects.hpp"
 #include "error.hpp"
@@ -51,29 +52,6 @@ void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>
     channels.push_back(std::move(channel));
   }
 }
-
-/// When outputs are rewritten while passes go on.
-class Checkpoints {
- public:
-  explicit Checkpoints(Integrator integrator) : integrator_(integrator), last_(Clock::now()) {}
-
-  /// The early ones are left out where writing, which takes `write_seconds`, would be over a tenth of the
-  /// time.
-  bool due(std::uint64_t pass, double write_seconds) {
-    const bool early = integrator_ == Integrator::sppm && pass <= 64 && (pass & (pass - 1)) == 0 &&
-                       seconds_since(last_) >= 10 * write_seconds;
-    const bool regular = integrator_ == Integrator::pt || pass - last_pass_ >= 64;
-    if (!early && !(regular && seconds_since(last_) >= 30)) return false;
-    last_ = Clock::now();
-    last_pass_ = pass;
-    return true;
-  }
-
- private:
-  Integrator integrator_;
-  Clock::time_point last_;
-  std::uint64_t last_pass_ = 0;
-};
 
 // With fewer passes the estimate of the error is too noisy to stop by.
 constexpr std::uint64_t fewest_passes = 8;
@@ -282,7 +260,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
       statistics.stop = StopReason::time;
       break;
     }
-    if (!options.outputs.empty() && checkpoints.due(pass + 1, longest_write)) {
+    if (!options.outputs.empty() && checkpoints.due(pass + 1, seconds_since(loop_start), longest_write)) {
       try {
         write(film.picture(statistics.passes));
       } catch (const UserError& error) {

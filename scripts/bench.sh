@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Usage: scripts/bench.sh [--quick] [--json FILE] [--device SPEC] [MESH...]
-# Installs what is missing, builds and runs the benchmark: whole renders with milliseconds per kernel, start-up
-# with an empty and a full kernel cache, tree building and traversal beside Embree on the same rays in the same
-# run. Without a MESH, the test meshes in ../shared/assets/ are traced too where that folder is there.
+# Usage: scripts/bench.sh [MESH...] [--quick] [--json FILE] [--device SPEC] [--passes N] [--triangles N...]
+# Installs what is missing, builds and runs the benchmark: what the device copies and computes at best, whole renders
+# with milliseconds per kernel, start-up with an empty and a full kernel cache, tree building and traversal beside
+# Embree on the same rays in the same run. Without a MESH, the test meshes in ../shared/assets/ are traced too where
+# that folder is there.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 
@@ -15,4 +16,4 @@ if [[ " $* " != *.ply* && " $* " != *.obj* ]]; then
     [ -f "$mesh" ] && meshes+=("$mesh")
   done
 fi
-exec "$root/build-bench/causticl_bench" "$@" "${meshes[@]}"
+exec "$root/build-bench/causticl_bench" "${meshes[@]}" "$@"
