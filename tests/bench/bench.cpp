@@ -28,12 +28,14 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(2, 100000));
   app.add_flag("--quick", quick, "fewer rays, the smaller mesh alone");
   CLI11_PARSE(app, argc, argv);
-  if (quick) {
-    traversal.rays = 200000;
-    traversal.repetitions = 3;
-    traversal.generated = {100000};
-    passes = 5;
-  }
+  // What is named otherwise stays.
+  const auto quick_value = [&](const char* option, auto& value, auto quicker) {
+    if (quick && app.count(option) == 0) value = quicker;
+  };
+  quick_value("--rays", traversal.rays, 200000);
+  quick_value("--repetitions", traversal.repetitions, 3);
+  quick_value("--triangles", traversal.generated, std::vector<std::size_t>{100000});
+  quick_value("--passes", passes, 5);
   try {
     const StartBenchResult start = bench_start(device_spec);
     Device device(find_device(device_spec));
