@@ -1,4 +1,5 @@
-"""Renders what scripts/calibration.sh describes and prints its table: calibration.py CAUSTICL FOLDER SCENE..."""
+"""Renders what scripts/calibration.sh describes and prints its table: calibration.py CAUSTICL FOLDER [OPTION...] SCENE..."""
+import argparse
 import concurrent.futures
 import datetime
 import itertools
@@ -11,25 +12,35 @@ import subprocess
 import sys
 
 BUDGETS, SEEDS = (8, 32, 128), range(1, 9)
-LONG, LONG_SEEDS = (512, 2048), (1, 2)  # where half the error is
-SETTINGS = ['--quiet', '--size', '48x36', '--threads', '1']  # one scene for each processor is faster
+LONG, LONG_SEEDS = (512, 2048), (1, 2, 3, 4)  # where half the error is
+SETTINGS = ['--quiet', '--size', '48x36']
 PHOTONS = 10000
-SAMPLES, MORE_SAMPLES = 16384, 65536  # of a path-traced reference; more where its own error is above the worst
-WORST_REFERENCE = 0.1
+SAMPLES = 16384  # of a path-traced reference; four times as many, and again, while its own error is above the worst
+WORST_REFERENCE = 0.02
 
-causticl, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+parser = argparse.ArgumentParser()
+parser.add_argument('causticl')
+parser.add_argument('folder', type=pathlib.Path)
+parser.add_argument('--device', default='cpu')
+parser.add_argument('--reference-device')
+parser.add_argument('--most-samples', type=int, default=65536)
+parser.add_argument('scenes', nargs='+', type=pathlib.Path)
+options = parser.parse_args()
+causticl, folder = options.causticl, options.folder
+reference_device = options.reference_device or options.device
 
 
 def run(*arguments):
     subprocess.run([causticl, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
 
 
-def render(scene, picture, *options):
+def render(scene, picture, device, *settings):
     """Renders unless that was done before; returns the statistics."""
     stats = picture.with_suffix('.stats')
     if not stats.exists():
         unfinished = stats.with_suffix('.part')
-        run('render', scene, *SETTINGS, *options, '-o', picture, '--stats-json', unfinished)
+        threads = ('--threads', '1') if device == 'cpu' else ()  # one scene for each processor is faster
+        run('render', scene, *SETTINGS, '--device', device, *threads, *settings, '-o', picture, '--stats-json', unfinished)
         unfinished.rename(stats)
     return json.loads(stats.read_text())
 
@@ -44,34 +55,54 @@ def has_hidden_caustics(scene):
 
 def reference_of(scene, first_radius):
     """The picture that is as good as the truth, and its statistics."""
-    name = scene.stem
     if not has_hidden_caustics(scene):
-        path_trace = lambda picture, samples: (
-            picture, render(scene, picture, '--integrator', 'pt', '--samples', samples, '--seed', 100))
-        picture, stats = path_trace(folder / f'{name}-pt.exr', SAMPLES)
-        if stats['error'] > WORST_REFERENCE:
-            picture, stats = path_trace(folder / f'{name}-more-pt.exr', MORE_SAMPLES)
+        samples, error = SAMPLES, math.inf
+        while error > WORST_REFERENCE and samples <= options.most_samples:
+            picture = folder / f'{scene.stem}-pt-{samples}.exr'
+            stats = render(scene, picture, reference_device, '--integrator', 'pt', '--samples', samples, '--seed', 100)
+            samples, error = 4 * samples, stats['error']
         return picture, stats
-    picture = folder / f'{name}-sppm.exr'
-    return picture, render(scene, picture, '--integrator', 'sppm', '--photons', 50000, '--passes', 1280, '--seed', 100,
-                           '-D', f'renderer.radius={first_radius / 5:.6g}', '-D', 'renderer.alpha=0.99',
+    picture = folder / f'{scene.stem}-sppm.exr'
+    return picture, render(scene, picture, reference_device, '--integrator', 'sppm', '--photons', 200000, '--passes', 5000,
+                           '--seed', 100, '-D', f'renderer.radius={first_radius / 10:.6g}', '-D', 'renderer.alpha=0.99',
                            '-D', 'renderer.schedule=global')
 
 
-def points(scene, passes, seeds):
-    for seed in seeds:
-        picture = folder / f'{scene.stem}-{passes}-{seed}.exr'
-        yield picture, render(scene, picture, '--integrator', 'sppm', '--photons', PHOTONS, '--passes', passes, '--seed', seed)
+def point(scene, passes, seed):
+    picture = folder / f'{scene.stem}-{passes}-{seed}.exr'
+    return picture, render(scene, picture, options.device, '--integrator', 'sppm', '--photons', PHOTONS, '--passes', passes,
+                           '--seed', seed)
+
+
+def seeds_of(passes):
+    return LONG_SEEDS if passes in LONG else SEEDS
+
+
+def first_point(scene):
+    """The first of a scene, which tells the first radius."""
+    return point(scene, BUDGETS[0], SEEDS[0])[1]
+
+
+def render_all(scenes):
+    """Everything that is measured, as many renders at a time as there are processors, the longest first."""
+    pool = concurrent.futures.ThreadPoolExecutor(os.cpu_count())
+    # A GPU gains nothing by many renders at a time.
+    reference_pool = pool if reference_device == options.device else concurrent.futures.ThreadPoolExecutor(3)
+    radii = list(pool.map(lambda scene: first_point(scene)['first_radius'], scenes))
+    jobs = [reference_pool.submit(reference_of, *of) for of in zip(scenes, radii)]
+    for passes in sorted((*BUDGETS, *LONG), reverse=True):
+        jobs += [pool.submit(point, scene, passes, seed) for scene in scenes for seed in seeds_of(passes)]
+    for job in concurrent.futures.as_completed(jobs):
+        job.result()
 
 
 def measure(scene):
     """Returns one row of the table, whether all shares are right, and the ratios of errors and of passes to half."""
-    _, first = next(points(scene, BUDGETS[0], SEEDS))
-    reference, reference_stats = reference_of(scene, first['first_radius'])
+    reference, reference_stats = reference_of(scene, first_point(scene)['first_radius'])
     noise = reference_stats['error']
     covered, truth, estimate, half = {}, {}, {}, {}
     for passes in (*BUDGETS, *LONG):
-        pictures = list(points(scene, passes, LONG_SEEDS if passes in LONG else SEEDS))
+        pictures = [point(scene, passes, seed) for seed in seeds_of(passes)]
         compared = []
         for picture, _ in pictures:
             file = picture.with_suffix('.compared')
@@ -101,25 +132,24 @@ def measure(scene):
 
     row = lambda values, form: ', '.join(form.format(100 * values[n]) for n in BUDGETS)
     inside = all(0.85 <= covered[n] <= 0.97 for n in BUDGETS)
-    kind = 'path tracing' if reference.stem.endswith('-pt') else 'SPPM'
+    kind = 'SPPM' if reference.stem.endswith('-sppm') else 'path tracing'
     text = (f"| `{scene.stem}` | {row(covered, '{:.1f}')}{'' if inside else ' *'} | {row(truth, '{:.3g}')} | "
             f"{row(estimate, '{:.3g}')} | {', '.join(map(told, halves))} | {kind}, {100 * noise:.2g} |")
     return text, inside, [estimate[n] / truth[n] if truth[n] else math.inf for n in BUDGETS], [h for h in halves if h is not None]
 
 
 def main():
-    scenes = [pathlib.Path(scene) for scene in sys.argv[3:]]
-    devices = subprocess.run([causticl, 'devices'], check=True, capture_output=True, text=True).stdout
-    print(f"`scripts/calibration.sh` on {datetime.date.today()}, {os.cpu_count()} cores, {devices.splitlines()[0].strip()}; "
-          f"48 × 36 pixels, {PHOTONS:,} photons a pass:\n")
+    scenes = options.scenes
+    render_all(scenes)
+    print(f'`scripts/calibration.sh` on {datetime.date.today()}, {os.cpu_count()} cores, device {options.device}, references on '
+          f'{reference_device}; 48 × 36 pixels, {PHOTONS:,} photons a pass:\n')
     print('| scene | % of pixels within their 90% bound after 8, 32, 128 passes | true error, % | estimated error, % '
           '| after 32, 128: predicted / true passes to half of it | truth, and its error, % |\n|---|---|---|---|---|---|')
     inside, errors, halves = [], [], []
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for text, *measured in pool.map(measure, scenes):
-            print(text, flush=True)
-            for values, value in zip((inside, errors, halves), measured):
-                values.append(value)
+    for text, *measured in map(measure, scenes):
+        print(text, flush=True)
+        for values, value in zip((inside, errors, halves), measured):
+            values.append(value)
     errors, halves = [*itertools.chain(*errors)], [*itertools.chain(*halves)]
     print(f'\n{sum(inside)} of {len(scenes)} scenes lie between 85 and 97% throughout. The estimated error is within a factor of '
           f'1.25 of the true one in {sum(1 / 1.25 <= e <= 1.25 for e in errors)} of {len(errors)} cases, the passes to half of it '
