@@ -103,31 +103,25 @@ void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels
   last_ = picture_error(pixels, confidence_);
   if (last_)
     looks_.push_back({std::log(static_cast<double>(passes)),
-                      std::log(normal_bound(relative_errors(pixels), confidence_)), std::log(last_->bias)});
+                      std::log(normal_bound(relative_errors(pixels), confidence_))});
   passes_ = passes;
 }
 
-double ErrorTrend::rate_of(double Look::*part, double expected) const {
-  if (looks_.empty() || !std::isfinite(looks_.back().*part)) return expected;
-  // A line through the latest look, by least squares. The expected rate weighs as much as one and a half
-  // looks an octave before the last do: of 0.5 to 6, that came closest in the scenes of
-  // scripts/calibration.sh.
+ErrorRates ErrorTrend::rates() const {
+  if (looks_.empty() || !std::isfinite(looks_.back().noise)) return expected_;
+  // A line through the latest look, by least squares. The expected rate weighs as much as three looks an
+  // octave before the last do: from there on to twelve, predictions in the scenes of scripts/calibration.sh
+  // are as good.
   const Look& now = looks_.back();
-  constexpr double octave = std::numbers::ln2, weight = 1.5;
-  double sum = weight * octave * octave, weighted = sum * expected;
+  constexpr double octave = std::numbers::ln2, weight = 3;
+  double sum = weight * octave * octave, weighted = sum * expected_.noise;
   for (const Look& then : looks_) {
     const double distance = now.passes - then.passes;
-    if (distance > 2.01 * octave || then.passes < 1.99 * octave || !std::isfinite(then.*part)) continue;
+    if (distance > 2.01 * octave || then.passes < 1.99 * octave || !std::isfinite(then.noise)) continue;
     sum += distance * distance;
-    weighted += distance * (then.*part - now.*part);
+    weighted += distance * (then.noise - now.noise);
   }
-  return weighted / sum;
-}
-
-ErrorRates ErrorTrend::rates() const {
-  constexpr double slowest_bias = 0.8;  // of its expected rate
-  return {std::max(rate_of(&Look::noise, expected_.noise), 0.0),
-          std::max(rate_of(&Look::bias, expected_.bias), slowest_bias * expected_.bias)};
+  return {std::max(weighted / sum, 0.0), expected_.bias};
 }
 
 double ErrorTrend::passes_until(double wanted) const {

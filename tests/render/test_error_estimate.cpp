@@ -101,13 +101,13 @@ TEST_CASE("a trend follows the rate that is measured, and starts from the one th
   CHECK(trend.passes_until(error * 1.1) == 2);
   for (const std::uint64_t passes : {4, 8, 16, 32, 64, 128})
     trend.add(passes, noisy(0.4 * std::pow(passes / 2.0, -0.35)));
-  // What was expected weighs a quarter.
+  // What was expected weighs three parts in eight: looks one and two octaves back weigh one and four.
   const double rate = trend.rates().noise;
-  CHECK(rate == Approx(0.35 + 0.25 * (0.5 - 0.35)).margin(0.01));
+  CHECK(rate == Approx(0.35 + 3.0 / 8 * (0.5 - 0.35)).margin(0.01));
   CHECK(trend.passes_until(trend.last()->error / 2) == Approx(128 * std::pow(2, 1 / rate)).epsilon(0.01));
 }
 
-TEST_CASE("bias goes down at its own rate, and what does not go down never ends") {
+TEST_CASE("bias goes down at the rate that is expected, and what does not go down never ends") {
   const std::vector<PixelError> biased(100, {1, 0, 0, 0.1f, 0});
   ErrorTrend trend({0.35, 0.2}, 0.9);
   trend.add(10, biased);
@@ -115,18 +115,14 @@ TEST_CASE("bias goes down at its own rate, and what does not go down never ends"
   ErrorTrend constant({0.35, 0}, 0.9);
   constant.add(10, biased);
   CHECK(constant.passes_until(0.05) == INFINITY);
-  // Bias that does not go down for a while does so in the end, nearly as expected; one that falls faster goes
-  // on.
-  ErrorTrend halted({0.35, 0.2}, 0.9), falling({0.35, 0.2}, 0.9);
-  for (const std::uint64_t passes : {16, 20, 24, 32, 40, 48, 64}) {
-    halted.add(passes, biased);
-    falling.add(passes, even_pixels(0, std::pow(passes, -0.4)));
-  }
-  CHECK(halted.passes_until(0.05) == Approx(64 * std::pow(2, 1 / 0.16)).epsilon(0.02));
-  CHECK(falling.rates().bias == Approx(0.4).margin(0.05));
-  // The two kinds of noise of SPPM, and an area's bias.
+  // What it has done so far tells nothing.
+  ErrorTrend halted({0.35, 0.2}, 0.9);
+  for (const std::uint64_t passes : {16, 20, 24, 32, 40, 48, 64}) halted.add(passes, biased);
+  CHECK(halted.passes_until(0.05) == Approx(64 * std::pow(2, 1 / 0.2)).epsilon(0.02));
+  CHECK(halted.rates().bias == 0.2);
+  // The two kinds of noise of SPPM, and a bias between that of areas and that of edges.
   CHECK(sppm_rates(0.7).noise == Approx((0.35 + 0.5) / 2));
-  CHECK(sppm_rates(0.7).bias == Approx(0.3));
+  CHECK((sppm_rates(0.7).bias < 0.3 && sppm_rates(0.7).bias > 0.15));
   // Between the two: noise falls away, and the bias is left.
   ErrorTrend both({0.5, 0.2}, 0.9);
   both.add(10, even_pixels(0.1, 0.1));
@@ -139,7 +135,7 @@ TEST_CASE("a course of noise and bias is followed to where it halves") {
   const auto at = [](double passes) {
     return even_pixels(0.8 * std::pow(passes, -0.45), 0.2 * std::pow(passes, -0.2));
   };
-  ErrorTrend trend({0.35, 0.15}, 0.9);
+  ErrorTrend trend({0.4, 0.2}, 0.9);
   for (std::uint64_t passes = 4; passes <= 128; passes += std::max<std::uint64_t>(1, passes / 5))
     trend.add(passes, at(static_cast<double>(passes)));
   const double half = trend.last()->error / 2, told = trend.passes_until(half);
