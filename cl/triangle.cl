@@ -2,6 +2,7 @@
 //
 // Two tests are to choose from, by `render --triangle-test`: each defines what it keeps of a ray (TriangleRay,
 // triangle_ray()), block_intersect(), and how many blocks a leaf holds for eight triangles (BLOCK_STRIDE).
+#include "effects.h"
 #include "ray.cl"
 #include "types.h"
 
@@ -111,7 +112,7 @@ INLINE real3 triangle_normal(real3 a, real3 b, real3 c) {
   real3 n = cross3(e, f);
   real square = dot3(n, n);
   real x = n.x, y = n.y, z = n.z, length = sqrt(square);
-  if (!(square > (real)0.01 * dot3(e, e) * dot3(f, f))) {
+  if (HAS(EFFECT_NEEDLES) && !(square > (real)NEEDLE_SINE2 * dot3(e, e) * dot3(f, f))) {
     n = needle_normal(a, b, c, size);
     x = n.x, y = n.y, z = n.z, length = sqrt(dot3(n, n));
   }
@@ -148,7 +149,7 @@ INLINE void triangle_surface(global const TriangleBlock *blocks, global const Tr
   surface->error = (real)GAMMA(7) * max_component(sum3(sum3(abs3(a), abs3(b)), abs3(c)));
   surface->material = attribute->material & ~TRIANGLE_SMOOTH;
   real x = geometric_normal.x, y = geometric_normal.y, z = geometric_normal.z;
-  if (attribute->material & TRIANGLE_SMOOTH) {
+  if (HAS(EFFECT_SMOOTH) && (attribute->material & TRIANGLE_SMOOTH)) {
     real3 n = sum3(sum3(scaled3(weight_0, normal_from_octahedral(attribute->normal[0])),
                         scaled3(hit.u, normal_from_octahedral(attribute->normal[1]))),
                    scaled3(hit.v, normal_from_octahedral(attribute->normal[2])));

@@ -5,6 +5,7 @@
 
 #include "effects.h"
 #include "error.hpp"
+#include "object_triangles.hpp"
 
 namespace causticl {
 namespace {
@@ -95,6 +96,24 @@ std::string motion_reason(const Scene& scene) {
       [](const Object& object) { return "motion of " + object.pointer; });
 }
 
+std::string smooth_reason(const Scene& scene) {
+  return first_object(
+      scene,
+      [&](const Object& object) {
+        return object.shape == Shape::mesh && object.smooth &&
+               !scene.meshes[static_cast<std::size_t>(object.mesh)].normal_index.empty();
+      },
+      [](const Object& object) { return "normals of mesh " + object.pointer; });
+}
+
+std::string needles_reason(const Scene& scene) {
+  return first_object(
+      scene, [&](const Object& object) { return has_needles(scene, object); },
+      [](const Object& object) {
+        return "triangles of " + std::string(shape_name(object.shape)) + " " + object.pointer;
+      });
+}
+
 bool fills(const MediumSpec& medium) {
   return max_component(medium.absorption) > 0 || max_component(medium.scattering) > 0;
 }
@@ -133,6 +152,8 @@ Effects find_effects(const Scene& scene) {
        scene.renderer.guided_photons ? "/renderer/guided_photons" : ""},
       {EFFECT_AIMED_PHOTONS, "aimed_photons", "photons aimed at what focuses them",
        aimed_photons_reason(scene)},
+      {EFFECT_SMOOTH, "smooth", "shading normals", smooth_reason(scene)},
+      {EFFECT_NEEDLES, "needles", "thin triangles", needles_reason(scene)},
   };
 }
 

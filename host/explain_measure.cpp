@@ -91,6 +91,9 @@ std::optional<std::pair<Scene, std::string>> scene_without(const Scene& scene, u
     case EFFECT_DISPERSION:
       for (auto& material : plain.materials) material.dispersion = 0;
       return std::pair{plain, "one index for all wavelengths"};
+    case EFFECT_SMOOTH:
+      for (auto& object : plain.objects) object.smooth = false;
+      return std::pair{plain, "flat faces"};
     case EFFECT_MOTION:
       for (auto& object : plain.objects) object.motion = {};
       return std::pair{plain, "a still"};

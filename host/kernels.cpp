@@ -12,8 +12,8 @@
 namespace causticl {
 namespace {
 
-constexpr unsigned geometry_effects =
-    EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
+constexpr unsigned geometry_effects = EFFECT_TRIANGLES | EFFECT_SMOOTH | EFFECT_NEEDLES | EFFECT_SPHERES |
+                                      EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
 constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH |
                                      EFFECT_CONDUCTOR | EFFECT_PLASTIC | EFFECT_ABSORPTION |
                                      EFFECT_DISPERSION | EFFECT_MEDIUM;

@@ -6,6 +6,7 @@
 #include "curve.hpp"
 #include "emitters.hpp"
 #include "error.hpp"
+#include "object_triangles.hpp"
 
 namespace causticl {
 namespace {
@@ -37,13 +38,9 @@ class WorldBuilder {
         case Shape3::plane:
           break;
         case Shape3::mesh:
-          add_mesh(object, scene_.meshes[object.mesh]);
-          break;
         case Shape3::rectangle:
-          add_rectangle(object);
-          break;
         case Shape3::box:
-          add_box(object);
+          add_triangles(object);
           break;
         default:
           add_shape(object);
@@ -78,13 +75,8 @@ class WorldBuilder {
     return result;
   }
 
-  struct Corner {
-    Vec3 position, normal;
-    double u = 0, v = 0;
-  };
-
   /// One world-space triangle. Normals are used where `smooth`.
-  void add_triangle(const Object& object, const Corner (&corners)[3], bool smooth) {
+  void add_triangle(const Object& object, const TriangleCorner (&corners)[3], bool smooth) {
     TreeTriangle triangle{};
     float normals[3][3], uvs[3][2];
     for (int c = 0; c < 3; ++c) {
@@ -109,78 +101,15 @@ class WorldBuilder {
     world_.emitters.push_back(light);
   }
 
-  void add_quad(const Object& object, const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
-    add_triangle(object, {a, b, c}, false);
-    add_triangle(object, {a, c, d}, false);
-  }
-
-  void add_rectangle(const Object& object) {
-    const auto corner = [&](double x, double y) {
-      return Corner{object.transform.point({x, y, 0}), {}, x + 0.5, y + 0.5};
-    };
-    // Counter-clockwise seen from local +z, also where the transform mirrors.
-    if (object.transform.determinant() < 0)
-      add_quad(object, corner(-.5, -.5), corner(-.5, .5), corner(.5, .5), corner(.5, -.5));
-    else
-      add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
-  }
-
-  /// Six faces, wound counter-clockwise seen from outside also where the transform mirrors.
-  void add_box(const Object& object) {
-    const bool mirrored = object.transform.determinant() < 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int right = (axis + 1) % 3, up = (axis + 2) % 3;
-      for (const double side : {-0.5, 0.5}) {
-        const auto corner = [&](double x, double y) {
-          Vec3 p;
-          p[axis] = side * object.size[axis];
-          p[right] = x * object.size[right];
-          p[up] = y * object.size[up];
-          return Corner{object.transform.point(p), {}, x + 0.5, y + 0.5};
-        };
-        if ((side > 0) != mirrored)
-          add_quad(object, corner(-.5, -.5), corner(.5, -.5), corner(.5, .5), corner(-.5, .5));
-        else
-          add_quad(object, corner(-.5, -.5), corner(-.5, .5), corner(.5, .5), corner(.5, -.5));
-      }
-    }
-  }
-
-  void add_mesh(const Object& object, const Mesh& mesh) {
-    const Transform to_local = object.transform.inverse();
-    const bool mirrored = object.transform.determinant() < 0;
-    world_.tree.triangles.reserve(world_.tree.triangles.size() + mesh.triangles());
-    world_.attributes.reserve(world_.attributes.size() + mesh.triangles());
-    for (std::size_t t = 0; t < mesh.triangles(); ++t) {
-      Corner corners[3];
-      bool smooth = object.smooth && !mesh.normal_index.empty();
-      for (int c = 0; c < 3; ++c) {
-        // A mirroring transform turns the winding around: two corners change places to keep outside outside.
-        const int from = mirrored && c > 0 ? 3 - c : c;
-        const auto& p = mesh.positions[mesh.position_index[t][from]];
-        corners[c].position = object.transform.point({p[0], p[1], p[2]});
-        const std::uint32_t n = mesh.normal_index.empty() ? no_index : mesh.normal_index[t][from];
-        if (n == no_index) {
-          smooth = false;
-        } else {
-          const auto& local = mesh.normals[n];
-          // Normals transform by the inverse transpose.
-          const Vec3 world =
-              to_local.rows[0] * local[0] + to_local.rows[1] * local[1] + to_local.rows[2] * local[2];
-          const double size = length(world);
-          if (size > 0)
-            corners[c].normal = world / size;
-          else
-            smooth = false;
-        }
-        const std::uint32_t uv = mesh.uv_index.empty() ? no_index : mesh.uv_index[t][from];
-        if (uv != no_index) {
-          corners[c].u = mesh.uvs[uv][0];
-          corners[c].v = mesh.uvs[uv][1];
-        }
-      }
+  void add_triangles(const Object& object) {
+    const std::size_t count =
+        object.shape == Shape3::mesh ? scene_.meshes[static_cast<std::size_t>(object.mesh)].triangles() : 0;
+    world_.tree.triangles.reserve(world_.tree.triangles.size() + count);
+    world_.attributes.reserve(world_.attributes.size() + count);
+    visit_triangles(scene_, object, [&](const TriangleCorner(&corners)[3], bool smooth) {
       add_triangle(object, corners, smooth);
-    }
+      return true;
+    });
   }
 
   /// Spheres, planes, disks and revolved curves.

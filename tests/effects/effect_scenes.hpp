@@ -43,6 +43,15 @@ inline std::vector<EffectScene> effect_scenes() {
   const auto with_light = [](const std::string& light) {
     return "{\"lights\": [" + light + "], " + effect_scene("").substr(1);
   };
+  const auto with_mesh = [](bool smooth) {
+    return effect_scene(R"({"type": "mesh", "path": ")" CAUSTICL_SOURCE_DIR
+                        R"(/scenes/assets/pawn.obj", "smooth": )" +
+                        std::string(smooth ? "true" : "false") + R"(, "material": {"type": "diffuse"}})");
+  };
+  const auto with_box = [](const std::string& height) {
+    return effect_scene(R"({"type": "box", "size": [2, )" + height +
+                        R"(, 2], "material": {"type": "diffuse"}})");
+  };
   const std::string lamp = R"({"type": "diffuse", "emission": [20, 20, 20]})";
   const std::string balls =
       R"({"camera": {"position": [0, 2, 7], "target": [0, 1, 0], "fov": 40}, "objects": [)";
@@ -95,6 +104,8 @@ inline std::vector<EffectScene> effect_scenes() {
        "/renderer/guided_photons"},
       {"aimed_photons", effect_scene(ball_of(R"({"type": "mirror"})"), "", R"(, "aimed_photons": true)"),
        effect_scene(ball_of(R"({"type": "mirror"})")), "type of /objects/2/material"},
+      {"smooth", with_mesh(true), with_mesh(false), "normals of mesh /objects/2"},
+      {"needles", with_box("0.1"), with_box("1"), "triangles of box /objects/2"},
   };
 }
 

@@ -92,7 +92,8 @@ struct RenderBudget {
 inline RenderResult render_for(CheckContext& context, const Scene& scene) {
   RenderOptions options;
   options.effects =
-      "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,environment,aimed_photons";
+      "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,environment,aimed_photons,"
+      "smooth,needles";
   options.kernel_dir = context.kernel_dir;
   options.seed = context.seed;
   options.threads = context.threads;
