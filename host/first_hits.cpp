@@ -37,19 +37,20 @@ std::string camera_rays_text(const KernelOptions& options) {
 }
 
 FirstHits::FirstHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
-                     const cl::Buffer& hits, const cl::Buffer& counters)
+                     const cl::Buffer& counters)
     : by_packets_(programs.options().camera_packets) {
   if (!by_packets_) return;
   kernel_ = programs.kernel(pass, "first_hits");
   first_argument_ = set_scene_arguments(kernel_, device_scene);
-  kernel_.setArg(first_argument_, hits);
   kernel_.setArg(first_argument_ + 1, counters);
 }
 
-void FirstHits::launch(Device& device, const DeviceScene& device_scene, const Params& params, uint samples) {
+void FirstHits::launch(Device& device, const DeviceScene& device_scene, const cl::Buffer& hits,
+                       const Params& params, uint samples) {
   if (!by_packets_ || params.pixel_count == 0) return;
   set_scene_arguments(kernel_, device_scene);  // its buffers may be new where things move
   const uint packets = packet_count(params, samples);
+  kernel_.setArg(first_argument_, hits);
   kernel_.setArg(first_argument_ + 2, params);
   kernel_.setArg(first_argument_ + 3, packets);
   device.launch_pass(kernel_, static_cast<std::size_t>(packets) * packet_rays);

@@ -24,13 +24,14 @@ std::string camera_rays_text(const KernelOptions& options);
 class FirstHits {
  public:
   FirstHits() = default;
-  /// The kernel of `pass`, which has `samples` paths a pixel and reads their first hits in `hits`. Faults go
-  /// to `counters`.
+  /// The kernel of `pass`. Faults go to `counters`.
   FirstHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
-            const cl::Buffer& hits, const cl::Buffer& counters);
+            const cl::Buffer& counters);
 
-  /// Finds those of the chunk that `params` tells.
-  void launch(Device& device, const DeviceScene& device_scene, const Params& params, uint samples);
+  /// Finds those of the chunk that `params` tells, which has `samples` paths a pixel, and puts them into
+  /// `hits`.
+  void launch(Device& device, const DeviceScene& device_scene, const cl::Buffer& hits, const Params& params,
+              uint samples);
 
  private:
   bool by_packets_ = false;

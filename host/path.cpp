@@ -18,7 +18,7 @@ PathTracer::PathTracer(const Scene& scene, DeviceScene& device_scene, Device& de
       chunk_(std::min(launch_chunk(device), film.pixels())),
       first_hit_bytes_(programs.options().camera_packets ? chunk_ * sizeof(FirstHit) : 0),
       first_hit_buffer_(device.buffer(first_hit_bytes_, "first hits")),
-      first_hits_(programs, "path", device_scene, first_hit_buffer_, counters_) {
+      first_hits_(programs, "path", device_scene, counters_) {
   device_.clear(counters_, sizeof(Counters));
   first_argument_ = set_scene_arguments(trace_paths_, device_scene);
   trace_paths_.setArg(first_argument_, film_.buffer());
@@ -36,7 +36,7 @@ void PathTracer::enqueue_pass(std::uint32_t pass) {
   for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk_, end - first));
-    first_hits_.launch(device_, device_scene_, params_, 1);
+    first_hits_.launch(device_, device_scene_, first_hit_buffer_, params_, 1);
     trace_paths_.setArg(first_argument_ + 2, params_);
     device_.launch_pass(trace_paths_, params_.pixel_count);
   }

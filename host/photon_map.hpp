@@ -44,6 +44,9 @@ class PhotonMap {
   const PhotonGrids& grids() const { return grids_; }
   const cl::Buffer& starts() const { return starts_; }
   const cl::Buffer& sorted() const { return sorted_; }
+  /// The memory of the photons as traced, of so many bytes. Between sort() and the next trace() it is free.
+  const cl::Buffer& traced() const { return photons_; }
+  std::size_t traced_bytes() const { return capacity_ * photon_bytes_; }
 
  private:
   const DeviceScene& scene_;

@@ -50,8 +50,6 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
-  visible_points_ =
-      device_.buffer(chunk_pixels_ * params_.visible_points * visible_point_bytes_, "visible points");
   pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
 
   // The first pass begins here, while programs that it needs later are still being built.
@@ -61,9 +59,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
   trace_camera_ = programs.kernel("camera", "trace_camera");
   gather_photons_ = programs.kernel("gather", "gather_photons");
-  first_hits_ = FirstHits(programs, "camera", device_scene, visible_points_, counters_);
+  first_hits_ = FirstHits(programs, "camera", device_scene, counters_);
   first_argument_ = set_scene_arguments(trace_camera_, device_scene);
-  trace_camera_.setArg(first_argument_, visible_points_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
   trace_camera_.setArg(first_argument_ + 3, pixels_);
 
@@ -97,9 +94,22 @@ void Sppm::start_pass(std::uint32_t pass) {
   started_pass_ = pass;
 }
 
+/// Where those of a chunk lie: in the memory of the photons as traced, once these have been sorted, if it is
+/// large enough.
+const cl::Buffer& Sppm::visible_points() {
+  const std::size_t bytes = chunk_pixels_ * params_.visible_points * visible_point_bytes_;
+  if (photon_map_.traced_bytes() >= bytes) {
+    own_visible_points_ = {};
+    return photon_map_.traced();
+  }
+  if (!own_visible_points_()) own_visible_points_ = device_.buffer(bytes, "visible points");
+  return own_visible_points_;
+}
+
 /// Those of the chunk that `params` tells.
-void Sppm::trace_visible_points(const Params& params) {
-  first_hits_.launch(device_, device_scene_, params, params.visible_points);
+void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) {
+  first_hits_.launch(device_, device_scene_, points, params, params.visible_points);
+  trace_camera_.setArg(first_argument_, points);
   trace_camera_.setArg(first_argument_ + 2, params);
   device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
 }
@@ -122,14 +132,16 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   const double fallback = 0.01 * extent;
   double radius = fallback;
   if (photon_map_.stored() == 0) return radius;
-  trace_visible_points(params);
+  // Beside the photons as traced, which are sorted anew for every radius.
+  const cl::Buffer points = device_.buffer(params.pixel_count * visible_point_bytes_, "visible points");
+  trace_visible_points(points, params);
 
   cl::Kernel count_around = programs.kernel("gather", "count_around");
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
   for (int step = 0; step < 12; ++step) {
     params.radius2 = static_cast<float>(radius * radius);
     photon_map_.sort(radius, radius * indirect_radius(spec_));
-    set_arguments(count_around, visible_points_, photon_map_.starts(), photon_map_.sorted(), counts,
+    set_arguments(count_around, points, photon_map_.starts(), photon_map_.sorted(), counts,
                   photon_map_.grids(), params);
     device_.launch_pass(count_around, params.pixel_count);
     auto found = device_.download<cl_uint>(counts, params.pixel_count);
@@ -171,15 +183,16 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   params_.segment =
       static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 4 * radius));
 
+  const cl::Buffer& points = visible_points();
   const std::size_t end = share_.end_of(film_.pixels());
   for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, end - first));
-    trace_visible_points(params_);
-    set_arguments(gather_photons_, visible_points_, pixels_, film_.buffer(), photon_map_.starts(),
+    trace_visible_points(points, params_);
+    set_arguments(gather_photons_, points, pixels_, film_.buffer(), photon_map_.starts(),
                   photon_map_.sorted(), counters_, photon_map_.grids(), params_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
-    guide_.mark(visible_points_, std::size_t{params_.pixel_count} * params_.visible_points, pass);
+    guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
   }
   advance_schedule(pass);
 }
@@ -212,7 +225,7 @@ std::vector<Channel> Sppm::channels() {
 
 double Sppm::bytes_per_pixel() const {
   const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * visible_point_bytes_);
-  return sizeof(SppmPixel) + chunk / static_cast<double>(film_.pixels());
+  return sizeof(SppmPixel) + (own_visible_points_() ? chunk / static_cast<double>(film_.pixels()) : 0);
 }
 
 }  // namespace causticl

@@ -48,7 +48,7 @@ class Sppm : public PassIntegrator {
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;
   std::size_t visible_point_bytes_, chunk_pixels_;
-  cl::Buffer visible_points_, pixels_;
+  cl::Buffer own_visible_points_, pixels_;
   FirstHits first_hits_;
   CounterTotals totals_;
   std::uint64_t emitted_ = 0;
@@ -57,7 +57,8 @@ class Sppm : public PassIntegrator {
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
   void start_pass(std::uint32_t pass);
-  void trace_visible_points(const Params& params);
+  const cl::Buffer& visible_points();
+  void trace_visible_points(const cl::Buffer& points, const Params& params);
   double choose_first_radius(Programs& programs, double extent);
   void advance_schedule(std::uint32_t pass);
 };
