@@ -91,7 +91,8 @@ def render_all(scenes):
 
 
 def measure(scene):
-    """Returns one row of the table, whether all shares are right, and the ratios of errors and of passes to half."""
+    """Returns one row of the table, whether all shares are right, what they are, and the ratios of errors, of passes to
+    half as told, and as whoever knew the true slope would tell."""
     reference, reference_stats = reference_of(scene)
     noise = reference_stats['error']
     covered, truth, estimate, half = {}, {}, {}, {}
@@ -117,11 +118,17 @@ def measure(scene):
                 return low * (high / low) ** (math.log(truth[low] / error) / math.log(truth[low] / truth[high]))
         return None
 
-    def halved(passes):
-        at = passes_at(truth[passes] / 2)
-        return half[passes] / at if at and half[passes] else None
+    def half_by_slope(passes):
+        """Where half the error would be if the true one went on as in the last two octaves."""
+        before, now = truth[passes // 4], truth[passes]
+        return passes * 4 ** (math.log(2) / math.log(before / now)) if 0 < now < before else math.inf
 
-    halves = [halved(n) for n in BUDGETS[1:]]
+    def halved(told, passes):
+        at = passes_at(truth[passes] / 2)
+        return told / at if at and told else None
+
+    halves = [halved(half[n], n) for n in BUDGETS[1:]]
+    by_slope = [halved(half_by_slope(n), n) for n in BUDGETS[1:]]
     told = lambda ratio: '–' if ratio is None else f'{ratio:.2f}'
 
     row = lambda values, form: ', '.join(form.format(100 * values[n]) for n in BUDGETS)
@@ -129,7 +136,8 @@ def measure(scene):
     kind = 'SPPM' if reference.stem.endswith('-sppm') else 'path tracing'
     text = (f"| `{scene.stem}` | {row(covered, '{:.1f}')}{'' if inside else ' *'} | {row(truth, '{:.3g}')} | "
             f"{row(estimate, '{:.3g}')} | {', '.join(map(told, halves))} | {kind}, {100 * noise:.2g} |")
-    return text, inside, [estimate[n] / truth[n] if truth[n] else math.inf for n in BUDGETS], [h for h in halves if h is not None]
+    return (text, inside, [covered[n] for n in BUDGETS], [estimate[n] / truth[n] if truth[n] else math.inf for n in BUDGETS],
+            [h for h in halves if h is not None], [h for h in by_slope if h is not None])
 
 
 def main():
@@ -139,15 +147,17 @@ def main():
           f'48 × 36 pixels, {PHOTONS:,} photons a pass:\n')
     print('| scene | % of pixels within their 90% bound after 8, 32, 128 passes | true error, % | estimated error, % '
           '| after 32, 128: predicted / true passes to half of it | truth, and its error, % |\n|---|---|---|---|---|---|')
-    inside, errors, halves = [], [], []
+    inside, covered, errors, halves, by_slope = [], [], [], [], []
     for text, *measured in map(measure, scenes):
         print(text, flush=True)
-        for values, value in zip((inside, errors, halves), measured):
+        for values, value in zip((inside, covered, errors, halves, by_slope), measured):
             values.append(value)
-    errors, halves = [*itertools.chain(*errors)], [*itertools.chain(*halves)]
-    print(f'\n{sum(inside)} of {len(scenes)} scenes lie between 85 and 97% throughout. The estimated error is within a factor of '
-          f'1.25 of the true one in {sum(1 / 1.25 <= e <= 1.25 for e in errors)} of {len(errors)} cases, the passes to half of it '
-          f'within 30% in {sum(0.7 <= h <= 1.3 for h in halves)} of {len(halves)}.')
+    covered, errors, halves, by_slope = ([*itertools.chain(*values)] for values in (covered, errors, halves, by_slope))
+    near = lambda ratios: f'{sum(0.7 <= ratio <= 1.3 for ratio in ratios)} of {len(ratios)}'
+    print(f'\n{sum(inside)} of {len(scenes)} scenes lie between 85 and 97% throughout, and {100 * statistics.mean(covered):.0f}% is the '
+          f'mean of all. The estimated error is within a factor of 1.25 of the true one in '
+          f'{sum(1 / 1.25 <= e <= 1.25 for e in errors)} of {len(errors)} cases, the passes to half of it within 30% in '
+          f'{near(halves)}; by the true slope over the last two octaves of passes they would be in {near(by_slope)}.')
 
 
 if __name__ == '__main__':
