@@ -74,7 +74,7 @@ std::string shadow_rays_reason(const Scene& scene) {
     return object.shape != Shape::plane && max_component(material.emission) > 0;
   };
   const std::string key = "/renderer/direct_light with the ";
-  const std::string surface =
+  std::string surface =
       first_object(scene, wanted, [&](const Object& object) { return key + "emitter " + object.pointer; });
   if (!surface.empty()) return surface;
   const std::string delta_light = delta_lights_reason(scene), environment = environment_reason(scene);

@@ -18,7 +18,8 @@ constexpr std::uint64_t block_lanes = 8;
 constexpr std::size_t leaf_limit = 24;  // primitives; above, a node is cut even where no gain shows at once
 
 inline float blocks_of(std::uint64_t count) {
-  return static_cast<float>((count + block_lanes - 1) / block_lanes);
+  const std::uint64_t blocks = (count + block_lanes - 1) / block_lanes;
+  return static_cast<float>(blocks);
 }
 
 /// A plane x[axis] = position and what cutting there costs: area times expected tests, without the node's

@@ -56,7 +56,7 @@ std::string si_number(double value) {
 
 std::string clock_time(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "?";
-  const auto whole = static_cast<long long>(std::min(seconds, 1e12) + 0.5);
+  const auto whole = std::llround(std::min(seconds, 1e12));
   if (whole < 3600) return formatted("%lld:%02lld", whole / 60, whole % 60);
   return formatted("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
 }
@@ -88,7 +88,7 @@ std::string progress_text(const Progress& now, double photons_per_second, double
 }
 
 std::string progress_bar(const Progress& now, double photons_per_second, double rays_per_second, int width) {
-  const std::string text = progress_text(now, photons_per_second, rays_per_second, width);
+  std::string text = progress_text(now, photons_per_second, rays_per_second, width);
   const int room = std::min(width - static_cast<int>(text.size()) - 3, 40);
   if (room < 5) return text;
   const double share = now.passes ? static_cast<double>(now.pass) / static_cast<double>(now.passes) : 0;

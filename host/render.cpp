@@ -161,6 +161,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
         "/renderer/guided_photons: cannot be shared between devices, since each would mark what its own "
         "pixels see; use one --device, or -D renderer.guided_photons=false");
   std::vector<std::unique_ptr<RenderDevice>> parts;
+  parts.reserve(devices.size());
   for (Device* device : devices)
     parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels,
                                                    RayChoice{options.camera_rays, options.photon_rays},

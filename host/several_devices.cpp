@@ -11,6 +11,7 @@ namespace {
 /// Calls `work` for each device, all at the same time. Throws what the first that failed threw.
 void for_each(const std::vector<RenderDevice*>& devices, const std::function<void(RenderDevice&)>& work) {
   std::vector<std::future<void>> running;
+  running.reserve(devices.size());
   for (RenderDevice* device : devices)
     running.push_back(std::async(std::launch::async, [&work, device] { work(*device); }));
   for (auto& one : running) one.wait();
