@@ -120,6 +120,11 @@ TEST_CASE("bias goes down at the rate that is expected, and what does not go dow
   for (const std::uint64_t passes : {16, 20, 24, 32, 40, 48, 64}) halted.add(passes, biased);
   CHECK(halted.passes_until(0.05) == Approx(64 * std::pow(2, 1 / 0.2)).epsilon(0.02));
   CHECK(halted.rates().bias == 0.2);
+  // Nor does it beside noise that goes down.
+  ErrorTrend noisy({0.35, 0.2}, 0.9);
+  for (const std::uint64_t passes : {16, 20, 24, 32, 40, 48, 64})
+    noisy.add(passes, even_pixels(std::pow(passes, -0.4), 0.1));
+  CHECK(noisy.rates().bias == 0.2);
   // The two kinds of noise of SPPM, and a bias between that of areas and that of edges.
   CHECK(sppm_rates(0.7).noise == Approx((0.35 + 0.5) / 2));
   CHECK((sppm_rates(0.7).bias < 0.3 && sppm_rates(0.7).bias > 0.15));
