@@ -311,7 +311,8 @@ INLINE real shading_normal_departure(const Surface *surface, real3 direction, re
 
 // Emitted radiance towards where `direction` came from.
 INLINE real3 emission_at(global const Material *material, const Surface *surface, real3 direction) {
+  global const float *emission = (global const float *)&material->emission;
   bool front = dot3(surface->geometric_normal, direction) < 0;
-  if (!front && !(material->flags & MATERIAL_TWO_SIDED)) return (real3)(0, 0, 0);
-  return convert_real3(material->emission.xyz);
+  bool emits = front || (material->flags & MATERIAL_TWO_SIDED) != 0;
+  return choose3(emits, (real3)(emission[0], emission[1], emission[2]), (real3)(0, 0, 0));
 }

@@ -4,6 +4,7 @@
 // probe a place of their disc, and a pixel divides by the mean of what its last hundred probes found. That mean is common
 // to many passes, so that what it is off by is not in their spread; and dividing by it is right but for its variance over its
 // square: with a hundred probes at a straight edge, 1%.
+#include "coverage_mean.cl"
 #include "grid.cl"
 #include "scene.cl"
 #include "warp.cl"
@@ -13,6 +14,15 @@
 
 // Surfaces that keep no photons, as glass, are passed by, up to this many.
 #define COVERAGE_MOST_HITS 4u
+
+// Whether the visible point of path `path` of the chunk is to probe, and of which radius.
+INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint path, real *radius) {
+  global const SppmPixel *state = pixels + pixel;
+  bool in_turn = path % params->visible_points == params->pass % params->visible_points;
+  if (!params->coverage || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
+  *radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : state->radius2_hi);
+  return true;
+}
 
 // Whether the primitive of a visible point's hit goes on at a place beside it: no ray need tell.
 INLINE bool coverage_goes_on(const Geometry *g, Hit hit, real3 offset) {

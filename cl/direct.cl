@@ -8,13 +8,12 @@ INLINE real power_weight(real pdf, real other_pdf) {
   return 1 / (1 + ratio * ratio);
 }
 
-// Whether something lies between the ray's origin and the light. Adds the ray to *rays and what befell it to
-// `counters`.
-INLINE bool shadowed(const Scene *scene, Ray shadow, LightSample light, uint *rays,
-                     volatile global Counters *counters) {
+// Whether something lies between the ray's origin and the light, which is that far. Adds the ray to *rays and what
+// befell it to `counters`.
+INLINE bool shadowed(const Scene *scene, Ray shadow, real distance, uint *rays, volatile global Counters *counters) {
   ++*rays;
   uint faults = 0;
-  bool occluded = geometry_occluded(&scene->geometry, shadow, light.distance - light.margin, &faults);
+  bool occluded = geometry_occluded(&scene->geometry, shadow, distance, &faults);
   count_faults(faults, counters);
   return occluded;
 }
@@ -54,33 +53,52 @@ static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surf
   BsdfSample lobe = rough_evaluate(bsdf, surface, arriving, n, light.direction);
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
-  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  if (shadowed(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   return throughput * lobe.weight * light.weight * (lobe.pdf * power_weight(light.pdf, lobe.pdf));
 }
 
-// Reflected radiance from one emitter at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes
-// its share of what arrives) with facing normal n. `arriving` is the direction of the path that found the point.
-// With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
-static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                          real3 arriving, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
-                          volatile global Counters *counters) {
+// Light from one emitter, and the shadow ray that decides whether it arrives.
+typedef struct {
+  Ray shadow;
+  real distance;    // how far that goes
+  real3 reflected;  // radiance to the path if nothing is in the way; zero where no ray need tell
+} UnshadowedLight;
+
+// Light from emitter `chosen` at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes its share of
+// what arrives) with facing normal n. `arriving` is the direction of the path that found the point. With `weigh_bsdf`, the
+// sample is weighted against BSDF sampling by the power heuristic.
+INLINE UnshadowedLight unshadowed_light(const Scene *scene, uint chosen, const Bsdf *bsdf, const Surface *surface,
+                                        Interior interior, real3 arriving, real3 n, real3 reflectance, real4 random,
+                                        bool weigh_bsdf) {
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
   real3 g = surface->geometric_normal;
-  real3 origin = offset_origin(surface->position, surface->error, g, dot3(arriving, g) < 0 ? g : -g);
-  LightSample light = light_sample(scene, origin, random);
+  real side = dot3(arriving, g) < 0 ? 1 : -1;
+  real3 origin = offset_origin(surface->position, surface->error, g, scaled3(side, g));
+  LightSample light = light_sample_from(scene, chosen, origin, random);
   real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
   bool same_side = dot3(light.direction, g) * dot3(arriving, g) < 0;
-  if (!(cosine > 0) || !same_side || !(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
-  Ray shadow = {origin, light.direction};
-  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
-  return reflectance * light.weight * (cosine * weight);
+  real3 reflected = scaled3(cosine * weight, product3(reflectance, light.weight));
+  UnshadowedLight found = {{origin, light.direction}, light.distance - light.margin,
+                           choose3(cosine > 0 && same_side, reflected, (real3)(0, 0, 0))};
+  return found;
+}
+
+// What of that is reflected to the path.
+static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
+                          real3 arriving, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
+                          volatile global Counters *counters) {
+  UnshadowedLight light = unshadowed_light(scene, emitter_choose(scene, random.x, random.w), bsdf, surface, interior,
+                                           arriving, n, reflectance, random, weigh_bsdf);
+  if (!(max_component(light.reflected) > 0) || shadowed(scene, light.shadow, light.distance, rays, counters))
+    return (real3)(0, 0, 0);
+  return light.reflected;
 }
 
 // The radiance of the environment that a ray into the open finds, as it counts beside light sampling; bsdf_pdf is the
@@ -99,7 +117,7 @@ static real3 direct_light_medium(const Scene *scene, real3 position, real3 arriv
   LightSample light = light_sample(scene, position, random);
   if (!(max_component(light.weight * throughput) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {position, light.direction};
-  if (shadowed(scene, shadow, light, rays, counters)) return (real3)(0, 0, 0);
+  if (shadowed(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
   real phase = phase_density(scene->medium.g, dot3(light.direction, arriving));
   real weight = weigh_phase ? power_weight(light.pdf, phase) : 1;
   return throughput * light.weight * transmittance(scene->medium.extinction, light.distance) * (phase * weight);

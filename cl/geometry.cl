@@ -66,3 +66,10 @@ INLINE void geometry_surface_parts(const Geometry *g, Ray ray, Hit hit, Surface 
   }
   surface_put_together(&parts, surface);
 }
+
+// The index of the material at a hit.
+INLINE uint geometry_material(const Geometry *g, Hit hit) {
+  if (!HAS(EFFECT_TRIANGLES) || (hit.primitive & HIT_SHAPE)) return g->shapes[hit.primitive & ~HIT_SHAPE].material;
+  uint triangle = g->blocks[hit.primitive / 8u].primitive[hit.primitive % 8u];
+  return g->attributes[triangle].material & ~TRIANGLE_SMOOTH;
+}

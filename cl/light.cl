@@ -120,50 +120,53 @@ INLINE LightSample delta_light(global const Emitter *emitter, real3 position) {
   return sample;
 }
 
-// Light that may reach `position` from one emitter, chosen by power. A sphere seen from outside is sampled in
-// its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
-static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
-  LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), 0, 0};
-  global const Emitter *emitter = scene->emitters + emitter_choose(scene, random.x, random.w);
+// light_sample() from the emitter that emitter_choose() finds by random.x and random.w.
+INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 position, real4 random) {
+  global const Emitter *emitter = scene->emitters + chosen;
   if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
     return environment_light(scene, emitter, random);
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) return delta_light(emitter, position);
-  real3 radiance = convert_real3(emitter->radiance.xyz);
-  if (HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE) {
-    real3 to_centre = convert_real3(emitter->a.xyz) - position;
-    real radius = emitter->a.w, distance2 = dot3(to_centre, to_centre);
-    if (distance2 > radius * radius * (real)1.0002f) {
-      real sine2 = radius * radius / distance2;
-      real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
-      sample.direction = cone_uniform(random.yz, to_centre / sqrt(distance2), one_minus_cos);
-      real along = dot3(to_centre, sample.direction);
-      real3 miss = to_centre - along * sample.direction;
-      real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
-      sample.distance = along - half_chord;
-      sample.pdf = emitter->probability / (2 * PI * one_minus_cos);
-      // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
-      real rounding = GAMMA(16) * (max_component(fabs(position)) + max_component(fabs(to_centre)) + radius);
-      sample.margin = (real)1e-5f * sample.distance + radius * rounding / max(half_chord, rounding);
-      sample.weight = radiance / sample.pdf;
-      return sample;
-    }
-  }
-  real3 normal;
-  real error, area_pdf;
+  global const float *row = (global const float *)emitter, *power = (global const float *)&emitter->radiance;
+  real3 radiance = (real3)(power[0], power[1], power[2]), normal;
+  real probability = emitter->probability, error, area_pdf;
   real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
-  real3 to_light = point - position;
-  real distance2 = dot3(to_light, to_light);
-  if (!(distance2 > 0) || !(area_pdf > 0)) return sample;
-  sample.distance = sqrt(distance2);
-  sample.direction = to_light / sample.distance;
-  real cosine = -dot3(sample.direction, normal);
-  if (emitter->two_sided) cosine = fabs(cosine);
-  if (!(cosine > 0)) return sample;
+  real3 to_light = difference3(point, position);
+  real distance2 = dot3(to_light, to_light), distance = sqrt(distance2);
+  real3 direction = choose3(distance2 > 0, quotient3(to_light, distance), (real3)(0, 0, 1));
+  real x = direction.x, y = direction.y, z = direction.z, cosine = -dot3(direction, normal);
+  cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
+  bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
+  real pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
   // An error of the surface's place moves the hit by 1 / cosine times as much.
-  sample.margin = (real)1e-5f * sample.distance + fmin(4 * error / cosine, (real)0.5f * sample.distance);
-  sample.pdf = emitter->probability * area_pdf * distance2 / cosine;
-  sample.weight = radiance / sample.pdf;
+  real margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
+
+  real3 to_centre = difference3((real3)(row[0], row[1], row[2]), position);
+  real radius = row[3], centre_distance2 = dot3(to_centre, to_centre);
+  bool outside = HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE &&
+                 centre_distance2 > radius * radius * (real)1.0002f;
+  if (HAS(EFFECT_SPHERES) && outside) {
+    real sine2 = radius * radius / centre_distance2;
+    real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
+    direction = cone_uniform_by(random.y, random.z, quotient3(to_centre, sqrt(centre_distance2)), one_minus_cos);
+    x = direction.x, y = direction.y, z = direction.z;
+    real along = dot3(to_centre, direction);
+    real3 miss = difference3(to_centre, scaled3(along, direction));
+    real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
+    distance = along - half_chord;
+    pdf = probability / (2 * PI * one_minus_cos);
+    // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
+    real rounding = GAMMA(16) * (max_component(abs3(position)) + max_component(abs3(to_centre)) + radius);
+    margin = (real)1e-5f * distance + radius * rounding / max(half_chord, rounding);
+  }
+  LightSample sample = {(real3)(x, y, z), distance, quotient3(radiance, pdf > 0 ? pdf : 1), pdf, margin};
+  sample.weight = choose3(pdf > 0, sample.weight, (real3)(0, 0, 0));
   return sample;
+}
+
+// Light that may reach `position` from one emitter, chosen by power. A sphere seen from outside is sampled in
+// its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
+static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
+  return light_sample_from(scene, emitter_choose(scene, random.x, random.w), position, random);
 }
 
 // The density per solid angle with which light_sample at `origin` draws the direction in which an emissive

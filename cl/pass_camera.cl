@@ -2,10 +2,10 @@
 // medium interacts with them first.
 #include "camera.cl"
 #include "coverage.cl"
-#include "coverage_mean.cl"
 #include "direct.cl"
 #include "grid.cl"
 #include "layers.cl"
+#include "receivers.cl"
 #include "unlikely_lobe.cl"
 #include "visible_point.cl"
 #include "work_group.cl"
@@ -26,11 +26,13 @@ INLINE Ray path_ray(const Params *params, uint index) {
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
 // meets, in either case. Returns the number of rays traced.
+//
+// Where receivers are found side by side, a path that comes to one is added to `receivers` in place of that.
 OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
-                         volatile global Counters *counters, global const SppmPixel *pixels) {
+                         volatile global Counters *counters, global const SppmPixel *pixels, Receivers *receivers,
+                         uint *receiver_count) {
   PathSampler sampler = chunk_sampler(params, params->visible_points, index);
   RandomStream stream = sampler.stream;
-  uint pixel = sampler.pixel, sample = index % params->visible_points;
   // Where the visible point will be.
   global const FirstHit *first = (global const FirstHit *)visible_points + index;
   Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
@@ -75,6 +77,12 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
         radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
+#if RECEIVERS_SIDE_BY_SIDE
+    if (scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE) {
+      receivers_add(receivers, (*receiver_count)++, index, &sampler, ray, hit, throughput, radiance.sum, depth, counted);
+      return rays;
+    }
+#endif
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
     global const Material *material = scene->materials + surface.material;
@@ -104,12 +112,10 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       if (!(max_component(weight) > 0)) break;
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | receiver_mark(history);
-      if (params->coverage && coverage_wanted(pixels[pixel].coverage, pixel, params->pass,
-                                              sample == params->pass % params->visible_points)) {
-        real radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : pixels[pixel].radius2_hi);
+      real radius;
+      if (probe_wanted(params, pixels, sampler.pixel, index, &radius))
         point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
                                        path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
-      }
       history = history_after(history, false);
       if (shadow_rays)
         radiance_add(&radiance, history,
@@ -149,13 +155,24 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params, global const SppmPixel *pixels) {
+  uint index = get_global_id(0), rays = 0, paths = params.pixel_count * params.visible_points;
+#if RECEIVERS_SIDE_BY_SIDE
+  if (get_local_id(0) != 0 || index >= paths) return;
+  SCENE_INIT(params);
+  Receivers receivers;
+  uint count = 0, end = min(index + (uint)get_local_size(0), paths);
+  for (; index < end; ++index)
+    rays += camera_path(&scene, &params, index, visible_points, counters, pixels, &receivers, &count);
+  rays += receivers_finish(&scene, &params, count, &receivers, visible_points, pixels, counters);
+  atomic_add(&counters->rays, rays);
+#else
   local uint group_rays[LARGEST_WORK_GROUP];
-  uint index = get_global_id(0), rays = 0;
-  if (index < params.pixel_count * params.visible_points) {
+  if (index < paths) {
     SCENE_INIT(params);
-    rays = camera_path(&scene, &params, index, visible_points, counters, pixels);
+    rays = camera_path(&scene, &params, index, visible_points, counters, pixels, 0, 0);
   }
   group_add(rays, group_rays, &counters->rays);
+#endif
 }
 
 #ifdef CAMERA_PACKETS

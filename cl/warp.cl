@@ -66,13 +66,16 @@ INLINE real3 sphere_uniform(real2 u) {
 
 // A unit direction within the cone about `axis` whose opening has 1 - cos = one_minus_cos, with uniform
 // density 1 / (2 pi one_minus_cos). Taking 1 - cos rather than cos keeps narrow cones exact.
-INLINE real3 cone_uniform(real2 u, real3 axis, real one_minus_cos) {
-  real drop = u.x * one_minus_cos;
+INLINE real3 cone_uniform_by(real u, real v, real3 axis, real one_minus_cos) {
+  real drop = u * one_minus_cos;
   real s = sqrt(max((real)0, drop * (2 - drop)));
-  real2 around = s * cos_sin_turn(u.y);
+  real2 around = cos_sin_turn(v);
   real3 tangent, bitangent;
   orthonormal_basis(axis, &tangent, &bitangent);
-  return normalize(around.x * tangent + around.y * bitangent + (1 - drop) * axis);
+  return unit3(sum3(sum3(scaled3(s * around.x, tangent), scaled3(s * around.y, bitangent)), scaled3(1 - drop, axis)));
+}
+INLINE real3 cone_uniform(real2 u, real3 axis, real one_minus_cos) {
+  return cone_uniform_by(u.x, u.y, axis, one_minus_cos);
 }
 
 // A uniform point of a triangle as barycentric weights of vertices 1 and 2.
