@@ -56,12 +56,31 @@ INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
   sum->count += (uint)sum_of_lanes(as_uint8(-lanes.count));
 }
 
+// Whether photons with these words of marks and normal landed on the side that a visible point's normal is of: the cosine
+// of the two is more than GATHER_NORMAL_COSINE.
+#ifdef __AVX2__
+typedef char Bytes __attribute__((ext_vector_type(32)));
+typedef short Words __attribute__((ext_vector_type(16)));
+// Four products of bytes at once, in a third of the instructions that floats take, and the same: 127 squared times
+// the cosine is a whole number. x86 multiplies bytes without sign by bytes with one, which takes that of both.
+INLINE int8 same_side(int8 photons, uint normal) {
+  Bytes p = __builtin_astype(photons, Bytes), n = __builtin_astype((int8)(int)(normal & 0xffffffu), Bytes);
+  Words sums = __builtin_ia32_pmaddubsw256(__builtin_ia32_psignb256(p, p), __builtin_ia32_psignb256(n, p));
+  return __builtin_ia32_pmaddwd256(sums, (Words)1) > (int)(GATHER_NORMAL_COSINE * 127 * 127);
+}
+#else
+INLINE int8 same_side(int8 photons, uint normal) {
+  float3 n = normal_unpack(normal) * (1.0f / 127.0f);
+  return n.x * convert_float8(photons << 24 >> 24) + n.y * convert_float8(photons << 16 >> 24) +
+             n.z * convert_float8(photons << 8 >> 24) > GATHER_NORMAL_COSINE;
+}
+#endif
+
 // Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the
 // lanes, and these to `sum` where they are full.
-INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, float3 normal,
-                         real radius2, GatherLanes *lanes, Gathered *sum) {
+INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, uint normal, real radius2,
+                         GatherLanes *lanes, Gathered *sum) {
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
-  float3 n = normal * (1.0f / 127.0f);
   real near_radius2 = radius2 / 4;
   uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
   while (block < blocks_end) {
@@ -77,11 +96,9 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       real8 dy = vload8(0, photons->position[1]) - point.y;
       real8 dz = vload8(0, photons->position[2]) - point.z;
       int8 packed = as_int8(vload8(0, photons->normal));
-      float8 facing = n.x * convert_float8(packed << 24 >> 24) + n.y * convert_float8(packed << 16 >> 24) +
-                      n.z * convert_float8(packed << 8 >> 24);
       real8 distance2 = dx * dx + dy * dy + dz * dz;
       uint8 index = block * 8 + lane;
-      int8 inside = mask_lanes(distance2 <= radius2) & (facing > GATHER_NORMAL_COSINE);
+      int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal);
       inside &= (index >= begin) & (index < end);
       if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
@@ -186,7 +203,7 @@ INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
 // hold a photon within `reach` of `centre` along each axis, once: a window of at most n cubes along an axis of n
 // buckets has no two in one bucket.
 OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
-                            real3 reach, float3 normal, real radius2, const MediumSegment *segment, Gathered *sum) {
+                            real3 reach, uint normal, real radius2, const MediumSegment *segment, Gathered *sum) {
   GatherLanes lanes = gather_lanes_empty();
   uint4 first, number = gather_window(grid, centre, reach, &first);
   // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
@@ -216,7 +233,7 @@ INLINE Gathered gathered_none(void) {
 // Sums over all photons on surfaces within sqrt(radius2) of `point`, and over those within half that
 // radius: what the two say differently of the density is a measure of how much the larger one blurs.
 INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
-                       float3 normal, real radius2) {
+                       uint normal, real radius2) {
   Gathered sum = gathered_none();
   real radius = sqrt(radius2);
   gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, &sum);
@@ -236,7 +253,7 @@ INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const
     segment.from = i * step;
     segment.to = i + 1 == steps ? length : (i + 1) * step;
     real3 centre = segment.begin + (segment.from + step / 2) * segment.direction;
-    gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, (float3)(0, 0, 0), radius2,
+    gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, 0, radius2,
                    &segment, &sum);
   }
   return sum;

@@ -41,7 +41,7 @@ kernel void count_around(global VisiblePoint *visible_points, global const uint 
     if (in_medium)
       count = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i, &params, params.radius2).count;
     else
-      count += gather(grids.grid[kind], starts, sorted, position, normal_unpack(point.normal), params.radius2 * wider).count /
+      count += gather(grids.grid[kind], starts, sorted, position, point.normal, params.radius2 * wider).count /
                wider;
   }
   photon_counts[i] = nothing ? COUNT_NOTHING : (uint)(count + (real)0.5f);
@@ -100,7 +100,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
         share *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
         share_near = share;
       } else {
-        sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), normal_unpack(point.normal),
+        sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
                      radius2 * wider);
         float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
         share /= coverage_of(pixel.coverage, of_probes);

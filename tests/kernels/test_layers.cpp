@@ -95,7 +95,7 @@ kernel void collect(global const float4 *points, global const uint *starts, glob
   real3 up = (real3)(0, 1, 0), point = convert_real3(points[i].xyz);
   MediumSegment segment = {point, up, 0, 0, (real3)(0.1f, 0.2f, 0.3f), 0.4f};
   Gathered sum = in_medium ? gather_medium(grid, starts, sorted, segment, 0.5f, radius2)
-                           : gather(grid, starts, sorted, point, convert_float3(up), radius2);
+                           : gather(grid, starts, sorted, point, normal_pack(up), radius2);
   sums[3 * i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
   sums[3 * i + 1] = (ulong4)(sum.direct_red, sum.direct_green, sum.direct_blue, 0);
   sums[3 * i + 2] = (ulong4)(sum.caustic_red, sum.caustic_green, sum.caustic_blue, 0);

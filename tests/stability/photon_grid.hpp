@@ -100,7 +100,7 @@ kernel void gather_points(global const float4 *points, global const uint *starts
                           global ulong4 *sums, Grid grid, float radius2, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  Gathered sum = gather(grid, starts, sorted, convert_real3(points[i].xyz), normal_unpack(as_uint(points[i].w)),
+  Gathered sum = gather(grid, starts, sorted, convert_real3(points[i].xyz), as_uint(points[i].w),
                         radius2);
   sums[2 * i] = (ulong4)(sum.red, sum.green, sum.blue, sum.count);
   sums[2 * i + 1] = (ulong4)(sum.near_red, sum.near_green, sum.near_blue, 0);
