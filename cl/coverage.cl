@@ -15,10 +15,10 @@
 // Surfaces that keep no photons, as glass, are passed by, up to this many.
 #define COVERAGE_MOST_HITS 4u
 
-// Whether the visible point of path `path` of the chunk is to probe, and of which radius.
-INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint path, real *radius) {
+// Whether visible point number `sample` of the pixel is to probe, and of which radius.
+INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint sample, real *radius) {
   global const SppmPixel *state = pixels + pixel;
-  bool in_turn = path % params->visible_points == params->pass % params->visible_points;
+  bool in_turn = sample == params->pass % params->visible_points;
   if (!params->coverage || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
   *radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : state->radius2_hi);
   return true;

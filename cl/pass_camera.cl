@@ -79,7 +79,8 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     }
 #if RECEIVERS_SIDE_BY_SIDE
     if (scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE) {
-      receivers_add(receivers, (*receiver_count)++, index, &sampler, ray, hit, throughput, radiance.sum, depth, counted);
+      receivers_put(receivers, (*receiver_count)++, sampler.pixel, index % params->visible_points, ray, hit, throughput,
+                    radiance.sum, depth, counted);
       return rays;
     }
 #endif
@@ -113,7 +114,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | receiver_mark(history);
       real radius;
-      if (probe_wanted(params, pixels, sampler.pixel, index, &radius))
+      if (probe_wanted(params, pixels, sampler.pixel, index % params->visible_points, &radius))
         point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
                                        path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
       history = history_after(history, false);
@@ -153,17 +154,43 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   return rays;
 }
 
+#if RECEIVERS_SIDE_BY_SIDE
+// Paths [first, end) of the chunk. Returns the number of rays.
+OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, uint end, global VisiblePoint *visible_points,
+                          volatile global Counters *counters, global const SppmPixel *pixels) {
+  Receivers receivers;
+  uint count = 0, rays = 0, others[WAVE_CAPACITY], other_count = 0, samples = params->visible_points;
+  uint pixel = params->first_pixel + first / samples, sample = first % samples;
+  for (uint index = first; index < end; ++index) {
+    bool receives = false;
+    if (FIRST_HITS_FOUND) {
+      // Most paths end at what they meet first. Lists without branches, since where they do is as good as random.
+      global const FirstHit *found = (global const FirstHit *)visible_points + index;
+      Hit hit = hit_none(INFINITY);
+      if (first_hit(found, &hit))
+        receives = scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE;
+      receivers_put(&receivers, count, pixel, sample, first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), 0, false);
+    }
+    others[other_count] = index;
+    count += receives ? 1u : 0u;
+    other_count += receives ? 0u : 1u;
+    sample = sample + 1 == samples ? 0 : sample + 1;
+    pixel += sample == 0 ? 1u : 0u;
+  }
+  rays += count;
+  for (uint i = 0; i < other_count; ++i)
+    rays += camera_path(scene, params, others[i], visible_points, counters, pixels, &receivers, &count);
+  return rays + receivers_finish(scene, params, count, &receivers, visible_points, pixels, counters);
+}
+#endif
+
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params, global const SppmPixel *pixels) {
   uint index = get_global_id(0), rays = 0, paths = params.pixel_count * params.visible_points;
 #if RECEIVERS_SIDE_BY_SIDE
   if (get_local_id(0) != 0 || index >= paths) return;
   SCENE_INIT(params);
-  Receivers receivers;
-  uint count = 0, end = min(index + (uint)get_local_size(0), paths);
-  for (; index < end; ++index)
-    rays += camera_path(&scene, &params, index, visible_points, counters, pixels, &receivers, &count);
-  rays += receivers_finish(&scene, &params, count, &receivers, visible_points, pixels, counters);
+  rays = camera_paths(&scene, &params, index, min(index + (uint)get_local_size(0), paths), visible_points, counters, pixels);
   atomic_add(&counters->rays, rays);
 #else
   local uint group_rays[LARGEST_WORK_GROUP];

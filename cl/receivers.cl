@@ -28,8 +28,7 @@ typedef struct {
   real throughput[3][WAVE_CAPACITY], radiance[3][WAVE_CAPACITY];
   uint counted[WAVE_CAPACITY];  // whether the emission there is, by unlikely_lobe.cl
   uint depth[WAVE_CAPACITY];    // of the vertex
-  uint path[WAVE_CAPACITY];     // of the chunk
-  uint stream[WAVE_CAPACITY], pixel[WAVE_CAPACITY], reversed[WAVE_CAPACITY];  // as in PathSampler
+  uint pixel[WAVE_CAPACITY], sample[WAVE_CAPACITY];  // of the path
 
   real position[3][WAVE_CAPACITY], error[WAVE_CAPACITY];  // as in Surface
   real side[3][WAVE_CAPACITY];    // the geometric normal on the path's side
@@ -42,9 +41,7 @@ typedef struct {
 } Receivers;
 
 INLINE PathSampler receiver_sampler(const Params *params, const Receivers *r, uint i) {
-  RandomStream stream = {params->seed, params->pass, r->stream[i]};
-  PathSampler sampler = {stream, r->pixel[i], half_of_passes(params->pass), r->reversed[i], params->sobol};
-  return sampler;
+  return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, params->sobol);
 }
 
 INLINE Ray receiver_ray(const Receivers *r, uint i) {
@@ -53,16 +50,15 @@ INLINE Ray receiver_ray(const Receivers *r, uint i) {
   return ray;
 }
 
-// Adds a path that meets a diffuse surface at `hit`.
-INLINE void receivers_add(Receivers *r, uint i, uint path, const PathSampler *sampler, Ray ray, Hit hit, real3 throughput,
+// Makes path i one that meets a diffuse surface at `hit`.
+INLINE void receivers_put(Receivers *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
                           real3 radiance, uint depth, bool counted) {
   r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
   r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
   r->t[i] = hit.t, r->u[i] = hit.u, r->v[i] = hit.v, r->primitive[i] = hit.primitive;
   r->throughput[0][i] = throughput.x, r->throughput[1][i] = throughput.y, r->throughput[2][i] = throughput.z;
   r->radiance[0][i] = radiance.x, r->radiance[1][i] = radiance.y, r->radiance[2][i] = radiance.z;
-  r->counted[i] = counted, r->depth[i] = depth, r->path[i] = path;
-  r->stream[i] = sampler->stream.path, r->pixel[i] = sampler->pixel, r->reversed[i] = sampler->reversed;
+  r->counted[i] = counted, r->depth[i] = depth, r->pixel[i] = pixel, r->sample[i] = sample;
 }
 
 // Makes path i that before it once more.
@@ -75,7 +71,7 @@ INLINE void receivers_repeat(Receivers *r, uint i) {
   }
   r->t[i] = r->t[i - 1], r->u[i] = r->u[i - 1], r->v[i] = r->v[i - 1], r->primitive[i] = r->primitive[i - 1];
   r->counted[i] = r->counted[i - 1], r->depth[i] = r->depth[i - 1];
-  r->stream[i] = r->stream[i - 1], r->pixel[i] = r->pixel[i - 1], r->reversed[i] = r->reversed[i - 1];
+  r->pixel[i] = r->pixel[i - 1], r->sample[i] = r->sample[i - 1];
 }
 
 INLINE bool receiver_reflects(const Receivers *r, uint i) {
@@ -181,7 +177,7 @@ OUTLINE uint receivers_probe(const Scene *scene, const Params *params, uint coun
   uint rays = 0;
   for (uint i = 0; i < count; ++i) {
     real radius;
-    if (!receiver_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->path[i], &radius)) continue;
+    if (!receiver_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->sample[i], &radius)) continue;
     PathSampler sampler = receiver_sampler(params, r, i);
     Hit hit = {0, r->primitive[i], r->u[i], r->v[i], 0};
     r->normal[i] |= coverage_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
@@ -191,7 +187,7 @@ OUTLINE uint receivers_probe(const Scene *scene, const Params *params, uint coun
   return rays;
 }
 
-OUTLINE void receivers_store(uint count, const Receivers *r, bool lit, global VisiblePoint *points) {
+OUTLINE void receivers_store(const Params *params, uint count, const Receivers *r, bool lit, global VisiblePoint *points) {
   for (uint i = 0; i < count; ++i) {
     VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
     bool reflects = receiver_reflects(r, i);
@@ -201,7 +197,7 @@ OUTLINE void receivers_store(uint count, const Receivers *r, bool lit, global Vi
       point.weight[k] = r->weight[k][i];
       point.radiance[k] = r->radiance[k][i] + (lit ? r->reflected[k][i] : 0);
     }
-    points[r->path[i]] = point;
+    points[(r->pixel[i] - params->first_pixel) * params->visible_points + r->sample[i]] = point;
   }
 }
 
@@ -220,6 +216,6 @@ OUTLINE uint receivers_finish(const Scene *scene, const Params *params, uint cou
     receivers_find_light(scene, padded, r);
     rays += receivers_shadow(scene, count, r, counters);
   }
-  receivers_store(count, r, lit, points);
+  receivers_store(params, count, r, lit, points);
   return rays;
 }
