@@ -19,27 +19,26 @@ INLINE PathSampler chunk_sampler(const Params *params, uint samples, uint index)
                       params->sobol);
 }
 
-// Where in its pixel a path begins, from the numbers of DIM_FILM: independent ones are spread over `strata`
-// strata, of which this is number `stratum`.
-INLINE real2 place_in_pixel(const PathSampler *sampler, real4 film, uint stratum, uint strata) {
-  return sampler->sobol != 0 ? film.xy : camera_stratum(stratum, strata, film.xy);
-}
-
-// The ray through the film position (x, y) in pixels from the top left; `lens` is uniform in the unit square.
+// The ray through the film position (x, y) in pixels from the top left; `lens_u` and `lens_v` are uniform.
 // It starts on the image plane, plane_distance along D, as scenes of the base format rely on.
-INLINE Ray camera_ray(const Camera *camera, uint width, uint height, real2 film, real2 lens) {
-  real u = film.x / width, v = 1 - film.y / height;
-  real3 d = convert_real3(camera->axis.xyz) + convert_real3(camera->right.xyz) * (u - (real)0.5f) +
-            convert_real3(camera->up.xyz) * (v - (real)0.5f);
+INLINE Ray camera_ray(const Camera *camera, uint width, uint height, real x, real y, real lens_u, real lens_v) {
+  const float *origin = (const float *)&camera->origin, *axis = (const float *)&camera->axis;
+  const float *right = (const float *)&camera->right, *up = (const float *)&camera->up;
+  real u = x / width - (real)0.5f, v = 1 - y / height - (real)0.5f;
+  real3 d = sum3(sum3((real3)(axis[0], axis[1], axis[2]), scaled3(u, (real3)(right[0], right[1], right[2]))),
+                 scaled3(v, (real3)(up[0], up[1], up[2])));
   Ray ray;
-  ray.origin = convert_real3(camera->origin.xyz) + d * camera->origin.w;
-  ray.direction = normalize(d);
-  if (HAS(EFFECT_LENS) && camera->right.w > 0) {
-    real2 r = camera->right.w * disc_uniform(lens);
-    real3 offset = r.x * convert_real3(camera->lens_right.xyz) + r.y * convert_real3(camera->lens_up.xyz);
-    real3 focus = (camera->up.w != 0 ? d : normalize(d)) * camera->axis.w;
-    ray.origin += offset;
-    ray.direction = normalize(focus - offset);
+  ray.origin = sum3((real3)(origin[0], origin[1], origin[2]), scaled3(origin[3], d));
+  ray.direction = unit3(d);
+  if (HAS(EFFECT_LENS)) {
+    const float *across = (const float *)&camera->lens_right, *along = (const float *)&camera->lens_up;
+    real aperture = right[3];
+    real2 place = disc_uniform((real2)(lens_u, lens_v));
+    real3 offset = sum3(scaled3(aperture * place.x, (real3)(across[0], across[1], across[2])),
+                        scaled3(aperture * place.y, (real3)(along[0], along[1], along[2])));
+    real3 focus = scaled3(axis[3], choose3(up[3] != 0, d, ray.direction));
+    ray.origin = sum3(ray.origin, offset);
+    ray.direction = choose3(aperture > 0, unit3(difference3(focus, offset)), ray.direction);
   }
   return ray;
 }

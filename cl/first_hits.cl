@@ -21,6 +21,28 @@ INLINE PacketTile packet_tile(uint samples) {
   return tile;
 }
 
+// The ray of path number `sample` of a pixel, which meets nothing yet, in place i of the packet.
+INLINE void first_ray_put(const Params *params, uint x, uint y, uint sample, bool even, RayPacket *rays, uint i) {
+  Ray ray = path_ray(params, x, y, sample, even);
+  rays->origin[0][i] = ray.origin.x, rays->origin[1][i] = ray.origin.y, rays->origin[2][i] = ray.origin.z;
+  rays->direction[0][i] = ray.direction.x, rays->direction[1][i] = ray.direction.y;
+  rays->direction[2][i] = ray.direction.z;
+  rays->t[i] = INFINITY, rays->u[i] = rays->v[i] = 0;
+  rays->primitive[i] = HIT_NONE, rays->faults[i] = 0;
+}
+
+// The rays of a packet's paths. Even numbers are drawn by vectors where the device has a loop's items in turn (vector.cl);
+// strata of the others ask for divisions, which it has none for.
+INLINE void first_rays(const Params *settings, const uint *x, const uint *y, const uint *samples, RayPacket *rays) {
+  const Params params = *settings;
+  if (params.sobol != 0) {
+#pragma clang loop vectorize(assume_safety)
+    for (uint i = 0; i < PACKET_RAYS; ++i) first_ray_put(&params, x[i], y[i], samples[i], true, rays, i);
+  } else {
+    for (uint i = 0; i < PACKET_RAYS; ++i) first_ray_put(&params, x[i], y[i], samples[i], false, rays, i);
+  }
+}
+
 // One packet of the tiles that hold pixels of the chunk, row by row: the chunk may begin and end within a row.
 OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint samples, uint index,
                            global FirstHit *first_hits, volatile global Counters *counters) {
@@ -31,7 +53,7 @@ OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint 
   uint top = (params->first_pixel / params->width / tile.height + place / across) * tile.height;
   uint of_pixel = min(samples, PACKET_RAYS);
   RayPacket rays;
-  uint paths[PACKET_RAYS];
+  uint paths[PACKET_RAYS], xs[PACKET_RAYS], ys[PACKET_RAYS], numbers[PACKET_RAYS];
   uint used = 0;
   for (uint i = 0; i < PACKET_RAYS; ++i) {
     uint in_tile = i / of_pixel, sample = part * PACKET_RAYS + i % of_pixel;
@@ -39,15 +61,16 @@ OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint 
     uint pixel = y * params->width + x - params->first_pixel;  // wraps around before the first
     bool has_path = in_tile < tile.width * tile.height && sample < samples && x < params->width &&
                     y < params->height && pixel < params->pixel_count;
-    Ray ray = {(float3)(0, 0, 0), (float3)(0, 0, 0)};
-    Hit hit = hit_none(INFINITY);
-    if (has_path) {
-      used |= 1u << i;
-      paths[i] = pixel * samples + sample;
-      ray = path_ray(params, paths[i]);
-      planes_closest(geometry, ray, &hit);
+    used |= has_path ? 1u << i : 0u;
+    paths[i] = pixel * samples + sample;
+    xs[i] = x, ys[i] = y, numbers[i] = sample;
+  }
+  first_rays(params, xs, ys, numbers, &rays);
+  if (HAS(EFFECT_PLANES)) {
+    for (uint i = 0; i < PACKET_RAYS; ++i) {
+      Hit hit = hit_none(INFINITY);
+      if (planes_closest(geometry, packet_ray(&rays, i), &hit)) packet_set(&rays, i, packet_ray(&rays, i), hit);
     }
-    packet_set(&rays, i, ray, hit);
   }
   kdtree_closest_packet(geometry->nodes, geometry->blocks, geometry->shapes, geometry->curves, &rays, used);
   for (; used != 0; used &= used - 1u) {

@@ -10,13 +10,17 @@
 #include "visible_point.cl"
 #include "work_group.cl"
 
-// The ray with which path `index` of the chunk begins.
-INLINE Ray path_ray(const Params *params, uint index) {
-  PathSampler sampler = chunk_sampler(params, params->visible_points, index);
+// The ray with which path number `sample` of pixel (x, y) begins. `even`: as PathSampler.sobol is not 0.
+INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {
+  uint samples = params->visible_points;
+  PathSampler sampler = path_sampler(params->seed, params->pass, y * params->width + x, sample, samples, even);
   real4 film = path_random4(&sampler, DIM_FILM);
-  real2 position = (real2)(sampler.pixel % params->width, sampler.pixel / params->width) +
-                   place_in_pixel(&sampler, film, index % params->visible_points, params->visible_points);
-  return camera_ray(&params->camera, params->width, params->height, position, film.zw);
+  real place_x = film.x, place_y = film.y;
+  if (!even) {  // independent numbers are spread over strata of the pixel
+    real2 place = camera_stratum(sample, samples, film.xy);
+    place_x = place.x, place_y = place.y;
+  }
+  return camera_ray(&params->camera, params->width, params->height, x + place_x, y + place_y, film.z, film.w);
 }
 
 #include "first_hits.cl"
@@ -35,7 +39,9 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   RandomStream stream = sampler.stream;
   // Where the visible point will be.
   global const FirstHit *first = (global const FirstHit *)visible_points + index;
-  Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
+  Ray ray = FIRST_HITS_FOUND ? first_ray(first)
+                             : path_ray(params, sampler.pixel % params->width, sampler.pixel / params->width,
+                                        index % params->visible_points, params->sobol != 0);
 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
   real3 throughput = (real3)(1, 1, 1);

@@ -5,16 +5,19 @@
 #include "unlikely_lobe.cl"
 #include "work_group.cl"
 
-// The ray with which path `index` of the chunk begins. Of independent numbers four consecutive samples stratify a pixel
-// 2 x 2; each pixel begins with a stratum of its own, so that a count that four does not divide shifts nothing.
-INLINE Ray path_ray(const Params *params, uint index) {
-  PathSampler sampler = chunk_sampler(params, 1u, index);
-  uint pixel = sampler.pixel;
+// The ray with which the path of this pass through pixel (x, y) begins. `even`: as PathSampler.sobol is not 0. Of
+// independent numbers four consecutive samples stratify a pixel 2 x 2; each pixel begins with a stratum of its own, so that
+// a count that four does not divide shifts nothing.
+INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {
+  uint pixel = y * params->width + x;
+  PathSampler sampler = path_sampler(params->seed, params->pass, pixel, sample, 1u, even);
   real4 film = path_random4(&sampler, DIM_FILM);
-  uint stratum = (params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u;
-  real2 position =
-      (real2)(pixel % params->width, pixel / params->width) + place_in_pixel(&sampler, film, stratum, 4u);
-  return camera_ray(&params->camera, params->width, params->height, position, film.zw);
+  real place_x = film.x, place_y = film.y;
+  if (!even) {
+    real2 place = camera_stratum((params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u, 4u, film.xy);
+    place_x = place.x, place_y = place.y;
+  }
+  return camera_ray(&params->camera, params->width, params->height, x + place_x, y + place_y, film.z, film.w);
 }
 
 #include "first_hits.cl"
@@ -119,7 +122,8 @@ INLINE void sample_pixel(const Scene *scene, const Params *params, uint index, g
   uint pixel = params->first_pixel + index;
   PathSampler sampler = chunk_sampler(params, 1u, index);
   global const FirstHit *first = first_hits + index;
-  Ray ray = FIRST_HITS_FOUND ? first_ray(first) : path_ray(params, index);
+  Ray ray = FIRST_HITS_FOUND ? first_ray(first)
+                             : path_ray(params, pixel % params->width, pixel / params->width, 0, params->sobol != 0);
   Radiance radiance;
   path_radiance(scene, ray, first, &sampler, params->max_depth, &radiance, rays, counters);
   film_add_radiance(film, pixel, params->width * params->height, &radiance, 0, params->pass, counters);

@@ -13,7 +13,7 @@ kernel void rays(global const float4 *uniform, global float4 *origins, global fl
   uint i = get_global_id(0);
   if (i >= count) return;
   float4 u = uniform[i];
-  Ray ray = camera_ray(&camera, width, height, (real2)(u.x * width, u.y * height), u.zw);
+  Ray ray = camera_ray(&camera, width, height, u.x * width, u.y * height, u.z, u.w);
   origins[i] = (float4)(ray.origin, 0);
   directions[i] = (float4)(ray.direction, 0);
 }
