@@ -83,6 +83,7 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   real near_radius2 = radius2 / 4;
   uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
+  uint8 number = block * 8 + lane - begin;  // in the range; of those before it, beyond all
   while (block < blocks_end) {
     if (lanes->steps == GATHER_STEPS) {
       gather_lanes_add(*lanes, sum);
@@ -97,9 +98,8 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       real8 dz = vload8(0, photons->position[2]) - point.z;
       int8 packed = as_int8(vload8(0, photons->normal));
       real8 distance2 = dx * dx + dy * dy + dz * dz;
-      uint8 index = block * 8 + lane;
-      int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal);
-      inside &= (index >= begin) & (index < end);
+      int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal) & (number < end - begin);
+      number += 8;
       if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
