@@ -30,9 +30,9 @@ INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STE
 #define VECTORISED(looped) 0
 #endif
 
-// Whether the photons of a wave meet all primitives in place of walking the tree each: the host asks for it where they
-// are few.
-#if defined(PHOTONS_BRUTE_FORCE) && WAVE_CAPACITY > 1u
+// Whether the rays of a wave meet all primitives in place of walking the tree each: the host asks for it where they are
+// few.
+#if defined(BRUTE_FORCE) && WAVE_CAPACITY > 1u
 #define WAVE_BRUTE_FORCE
 #endif
 

@@ -59,8 +59,7 @@ cl::Program build_pass(Device& device, const std::string& pass, const KernelOpti
   if (options.triangle_test == TriangleTest::precomputed && (effects & EFFECT_TRIANGLES))
     defines += "#define TRIANGLES_PRECOMPUTED\n";
   if (options.camera_packets && (pass == "camera" || pass == "path")) defines += "#define CAMERA_PACKETS\n";
-  if (options.brute_force_photons && (pass == "photon" || pass == "camera"))
-    defines += "#define PHOTONS_BRUTE_FORCE\n";
+  if (options.brute_force && (pass == "photon" || pass == "camera")) defines += "#define BRUTE_FORCE\n";
   const std::string source = defines + flatten_kernel_source("pass_" + pass + ".cl", options.kernel_dir);
   if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);
   // Names and types of arguments, for the first launch of each kernel (programs.cpp).

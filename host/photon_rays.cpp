@@ -21,7 +21,7 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
 }
 
 std::string photon_rays_text(const KernelOptions& options) {
-  return options.brute_force_photons ? "sixteen at a time, each meets every primitive" : "one by one";
+  return options.brute_force ? "sixteen at a time, each meets every primitive" : "one by one";
 }
 
 }  // namespace causticl

@@ -1,4 +1,4 @@
-// How photons find what they meet next.
+// How photons find what they meet next, and shadow rays of camera paths what is in their way.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace causticl {
 /// same. `automatic`: by brute force on CPUs where primitives are few.
 enum class PhotonRays { automatic, tree, brute_force };
 
-/// Whether the program of a device is to trace photons by brute force. Never in double precision, by the
+/// Whether the programs of a device are to trace photons and shadow rays by brute force. Never in double precision, by the
 /// precomputed test, among revolved curves, and where bounded primitives are more than
 /// BRUTE_FORCE_PRIMITIVES.
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,

@@ -20,7 +20,7 @@ void for_each(const std::vector<RenderDevice*>& devices, const std::function<voi
 
 KernelOptions with_rays(KernelOptions kernels, RayChoice wanted, const Scene& scene, const Device& device) {
   kernels.camera_packets = packets_chosen(wanted.camera, device, kernels);
-  kernels.brute_force_photons = brute_force_chosen(wanted.photon, scene, device, kernels);
+  kernels.brute_force = brute_force_chosen(wanted.photon, scene, device, kernels);
   return kernels;
 }
 
