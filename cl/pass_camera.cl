@@ -196,7 +196,9 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
 #if RECEIVERS_SIDE_BY_SIDE
   if (get_local_id(0) != 0 || index >= paths) return;
   SCENE_INIT(params);
-  rays = camera_paths(&scene, &params, index, min(index + (uint)get_local_size(0), paths), visible_points, counters, pixels);
+  uint end = min(index + (uint)get_local_size(0), paths);
+  for (; index < end; index += WAVE_CAPACITY)
+    rays += camera_paths(&scene, &params, index, min(index + WAVE_CAPACITY, end), visible_points, counters, pixels);
   atomic_add(&counters->rays, rays);
 #else
   local uint group_rays[LARGEST_WORK_GROUP];

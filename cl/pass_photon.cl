@@ -296,9 +296,11 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
     if (get_local_id(0) != 0) return;
   }
   SCENE_INIT(params);
-  count = min(count, params.photon_count - first);
+  uint end = first + min(count, params.photon_count - first), rays = 0;
   Guide guide = {seeds, accepted, marks, cells};
   Aim aim = {aim_cells, aim_landed};
-  uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, count, photons, counters);
+  for (; first < end; first += WAVE_CAPACITY)
+    rays += wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, min(end - first, WAVE_CAPACITY), photons,
+                       counters);
   atomic_add(&counters->rays, rays);
 }

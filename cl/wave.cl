@@ -4,9 +4,10 @@
 #include "layers.cl"
 #include "rng.cl"
 
-// Photons of a wave at most: those of a work-group where the device wants loops, as PoCL does; else a work-item's own.
+// Photons of a wave at most: those of a usual work-group where the device wants loops, as PoCL does; else a work-item's own.
+// What a wave holds should fit into the first cache, where arrays with room for more would also be in each other's way.
 #if defined(POCL_DEVICE_ADDRESS_BITS)
-#define WAVE_CAPACITY LARGEST_WORK_GROUP
+#define WAVE_CAPACITY 64u
 #else
 #define WAVE_CAPACITY 1u
 #endif

@@ -12,8 +12,8 @@ namespace causticl {
 /// same. `automatic`: by brute force on CPUs where primitives are few.
 enum class PhotonRays { automatic, tree, brute_force };
 
-/// Whether the programs of a device are to trace photons and shadow rays by brute force. Never in double precision, by the
-/// precomputed test, among revolved curves, and where bounded primitives are more than
+/// Whether the programs of a device are to trace photons and shadow rays by brute force. Never in double
+/// precision, by the precomputed test, among revolved curves, and where bounded primitives are more than
 /// BRUTE_FORCE_PRIMITIVES.
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
                         const KernelOptions& options);
