@@ -76,6 +76,15 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   Radiance radiance = radiance_none();
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
   uint found = 0;
+  // What the flux around a point counts for: over the area, in that of the own radius, that surfaces cover.
+  real share_of_kind[PHOTON_KINDS], near_share_of_kind[PHOTON_KINDS];
+#pragma unroll
+  for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
+    real wider = kind_radius2(&params, kind);
+    float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
+    share_of_kind[kind] = 1 / (wider * coverage_of(pixel.coverage, of_probes));
+    near_share_of_kind[kind] = 1 / (wider * coverage_of(pixel.coverage, of_probes / 2));
+  }
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
     radiance.sum += vload3(0, point.radiance);
@@ -91,20 +100,18 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
       Gathered sum;
-      real wider = kind_radius2(&params, kind);
-      real3 share = weight / wider, share_near = share;
+      real3 share, share_near;
       if (in_medium) {
         real g = params.extinction.w;
         sum = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i * params.visible_points + s, &params,
                                      radius2);
-        share *= phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT;
+        share = weight * (phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT);
         share_near = share;
       } else {
         sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
-                     radius2 * wider);
-        float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
-        share /= coverage_of(pixel.coverage, of_probes);
-        share_near /= coverage_of(pixel.coverage, of_probes / 2);
+                     radius2 * kind_radius2(&params, kind));
+        share = weight * share_of_kind[kind];
+        share_near = weight * near_share_of_kind[kind];
       }
       reflected += share * (real3)(sum.red, sum.green, sum.blue);
       reflected_near += share_near * (real3)(sum.near_red, sum.near_green, sum.near_blue);
