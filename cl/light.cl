@@ -127,30 +127,34 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     return environment_light(scene, emitter, random);
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) return delta_light(emitter, position);
   global const float *row = (global const float *)emitter, *power = (global const float *)&emitter->radiance;
-  real3 radiance = (real3)(power[0], power[1], power[2]), normal;
-  real probability = emitter->probability, error, area_pdf;
-  real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
-  real3 to_light = difference3(point, position);
-  real distance2 = dot3(to_light, to_light), distance = sqrt(distance2);
-  real3 direction = choose3(distance2 > 0, quotient3(to_light, distance), (real3)(0, 0, 1));
-  real x = direction.x, y = direction.y, z = direction.z, cosine = -dot3(direction, normal);
-  cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
-  bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
-  real pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
-  // An error of the surface's place moves the hit by 1 / cosine times as much.
-  real margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
-
+  real3 radiance = (real3)(power[0], power[1], power[2]);
+  real probability = emitter->probability;
   real3 to_centre = difference3((real3)(row[0], row[1], row[2]), position);
   real radius = row[3], centre_distance2 = dot3(to_centre, to_centre);
   bool outside = HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE &&
                  centre_distance2 > radius * radius * (real)1.0002f;
-  if (HAS(EFFECT_SPHERES) && outside) {
+  real x, y, z, distance, pdf, margin;  // scalars alone leave the branches: see vector.cl
+  if (!outside) {
+    real3 normal;
+    real error, area_pdf;
+    real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
+    real3 to_light = difference3(point, position);
+    real distance2 = dot3(to_light, to_light), length = sqrt(distance2);
+    real3 towards = choose3(distance2 > 0, quotient3(to_light, length), (real3)(0, 0, 1));
+    x = towards.x, y = towards.y, z = towards.z, distance = length;
+    real cosine = -dot3(towards, normal);
+    cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
+    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
+    pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
+    // An error of the surface's place moves the hit by 1 / cosine times as much.
+    margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
+  } else {
     real sine2 = radius * radius / centre_distance2;
     real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
-    direction = cone_uniform_by(random.y, random.z, quotient3(to_centre, sqrt(centre_distance2)), one_minus_cos);
-    x = direction.x, y = direction.y, z = direction.z;
-    real along = dot3(to_centre, direction);
-    real3 miss = difference3(to_centre, scaled3(along, direction));
+    real3 drawn = cone_uniform_by(random.y, random.z, quotient3(to_centre, sqrt(centre_distance2)), one_minus_cos);
+    x = drawn.x, y = drawn.y, z = drawn.z;
+    real along = dot3(to_centre, drawn);
+    real3 miss = difference3(to_centre, scaled3(along, drawn));
     real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
     distance = along - half_chord;
     pdf = probability / (2 * PI * one_minus_cos);

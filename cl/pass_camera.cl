@@ -14,7 +14,7 @@
 INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {
   uint samples = params->visible_points;
   PathSampler sampler = path_sampler(params->seed, params->pass, y * params->width + x, sample, samples, even);
-  real4 film = path_random4(&sampler, DIM_FILM);
+  real4 film = path_random4_parts(&sampler, DIM_FILM);
   real place_x = film.x, place_y = film.y;
   if (!even) {  // independent numbers are spread over strata of the pixel
     real2 place = camera_stratum(sample, samples, film.xy);
@@ -113,7 +113,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
                            params->max_depth, counted, &radiance, &rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
-    if (bsdf.kind == MATERIAL_DIFFUSE) {
+    if (!RECEIVERS_SIDE_BY_SIDE && bsdf.kind == MATERIAL_DIFFUSE) {
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;

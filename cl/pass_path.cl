@@ -11,7 +11,7 @@
 INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {
   uint pixel = y * params->width + x;
   PathSampler sampler = path_sampler(params->seed, params->pass, pixel, sample, 1u, even);
-  real4 film = path_random4(&sampler, DIM_FILM);
+  real4 film = path_random4_parts(&sampler, DIM_FILM);
   real place_x = film.x, place_y = film.y;
   if (!even) {
     real2 place = camera_stratum((params->pass + (pixel * 0x9e3779b9u >> 30)) % 4u, 4u, film.xy);

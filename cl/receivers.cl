@@ -40,8 +40,8 @@ typedef struct {
   real distance[WAVE_CAPACITY], reflected[3][WAVE_CAPACITY];  // of UnshadowedLight; its ray is then the path's
 } Receivers;
 
-INLINE PathSampler receiver_sampler(const Params *params, const Receivers *r, uint i) {
-  return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, params->sobol);
+INLINE PathSampler receiver_sampler(const Params *params, const Receivers *r, uint i, uint sobol) {
+  return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, sobol);
 }
 
 INLINE Ray receiver_ray(const Receivers *r, uint i) {
@@ -79,7 +79,7 @@ INLINE bool receiver_reflects(const Receivers *r, uint i) {
 }
 
 // The visible point of path i, its emission, and the numbers that draw its light.
-INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *r, uint i) {
+INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *r, uint i, uint sobol) {
   Ray ray = receiver_ray(r, i);
   Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
   Surface surface;
@@ -102,18 +102,25 @@ INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *
   r->facing[0][i] = n.x, r->facing[1][i] = n.y, r->facing[2][i] = n.z;
   r->weight[0][i] = weight.x, r->weight[1][i] = weight.y, r->weight[2][i] = weight.z;
   r->normal[i] = normal_pack(g);
-  PathSampler sampler = receiver_sampler(params, r, i);
-  real4 random = path_random_at(&sampler, r->depth[i], DIM_LIGHT);
+  PathSampler sampler = receiver_sampler(params, r, i, sobol);
+  real4 random = path_random4_parts(&sampler, dimension_at(r->depth[i], DIM_LIGHT));
   r->random[0][i] = random.x, r->random[1][i] = random.y, r->random[2][i] = random.z, r->random[3][i] = random.w;
 }
 
 OUTLINE void receivers_find_points(const Scene *from, const Params *settings, uint count, Receivers *r) {
   const Scene scene = *from;
   const Params params = *settings;
+  if (params.sobol != 0) {
 #if RECEIVERS_SIDE_BY_SIDE
 #pragma clang loop vectorize(assume_safety)
 #endif
-  for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i);
+    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 1);
+  } else {
+#if RECEIVERS_SIDE_BY_SIDE
+#pragma clang loop vectorize(assume_safety)
+#endif
+    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 0);
+  }
 }
 
 // Light from the emitter chosen for the visible point of path i, whose shadow ray takes the place of the path's.
@@ -178,7 +185,7 @@ OUTLINE uint receivers_probe(const Scene *scene, const Params *params, uint coun
   for (uint i = 0; i < count; ++i) {
     real radius;
     if (!receiver_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->sample[i], &radius)) continue;
-    PathSampler sampler = receiver_sampler(params, r, i);
+    PathSampler sampler = receiver_sampler(params, r, i, params->sobol);
     Hit hit = {0, r->primitive[i], r->u[i], r->v[i], 0};
     r->normal[i] |= coverage_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
                                    (real3)(r->side[0][i], r->side[1][i], r->side[2][i]), radius * radius,

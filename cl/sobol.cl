@@ -58,19 +58,27 @@ INLINE uint sobol_second(uint first) {
   return first ^ first << 16;
 }
 
+// The path's points of the two sequences of a dimension, and what they are shifted by.
+INLINE uint4 sobol_points(const PathSampler *sampler, uint dimension, uint4 *shift) {
+  uint4 hash = pcg4d((uint4)(sampler->pixel, SOBOL_PASS + sampler->of_half, dimension, sampler->stream.seed));
+  uint x = owen_scramble(sampler->reversed, hash.x), z = owen_scramble(sampler->reversed, hash.w);
+  // The shifts of the second pair have their first sixteen bits from the last of what the others use.
+  *shift = (uint4)(hash.y, hash.z, hash.y << 16 | hash.x >> 16, hash.z << 16 | hash.w >> 16);
+  return (uint4)(x, sobol_second(x), z, sobol_second(z));
+}
+
 // The path's four uniform numbers in [0, 1) for a dimension of dims.h: xy and zw are pairs.
 INLINE real4 path_random4(const PathSampler *sampler, uint dimension) {
-  RandomStream stream = sampler->stream;
-  bool even = sampler->sobol != 0;
-  uint4 hash = pcg4d((uint4)(even ? sampler->pixel : stream.path, even ? SOBOL_PASS + sampler->of_half : stream.pass,
-                             dimension, stream.seed));
-  uint x = owen_scramble(sampler->reversed, hash.x), z = owen_scramble(sampler->reversed, hash.w);
-  uint y = sobol_second(x) ^ hash.z, w = sobol_second(z);
-  x ^= hash.y;
-  // The shifts of the second pair have their first sixteen bits from the last of what the others use.
-  z ^= hash.y << 16 | hash.x >> 16;
-  w ^= hash.z << 16 | hash.w >> 16;
-  return uniform4((uint4)(even ? x : hash.x, even ? y : hash.y, even ? z : hash.z, even ? w : hash.w));
+  if (sampler->sobol == 0) return random4(sampler->stream, dimension);
+  uint4 shift, points = sobol_points(sampler, dimension, &shift);
+  return uniform4(points ^ shift);
+}
+
+// The same for loops over paths that are to be vectorised, where `sobol` is known when they are compiled.
+INLINE real4 path_random4_parts(const PathSampler *sampler, uint dimension) {
+  if (sampler->sobol == 0) return random4(sampler->stream, dimension);
+  uint4 shift, points = sobol_points(sampler, dimension, &shift);
+  return uniform4((uint4)(points.x ^ shift.x, points.y ^ shift.y, points.z ^ shift.z, points.w ^ shift.w));
 }
 
 // The same for the vertex with index `depth` (from 0).
