@@ -151,13 +151,18 @@ OUTLINE void receivers_find_light(const Scene *from, uint count, Receivers *r) {
   for (uint i = 0; i < count; ++i) receiver_light(&scene, r, i);
 }
 
-// Leaves no light where something is in the way. Returns the number of rays.
+// Whether light comes to the visible point of path i unless something is in the way.
+INLINE bool receiver_asks(const Receivers *r, uint i) {
+  return max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0;
+}
+
+// Leaves light alone that is positive and that nothing is in the way of. Returns the number of rays.
 OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, volatile global Counters *counters) {
   uint rays = 0;
 #ifdef WAVE_BRUTE_FORCE
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
-    bool asks = max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0;
+    bool asks = receiver_asks(r, i);
     rays += asks ? 1u : 0u;
     r->t[i] = asks ? r->distance[i] : -INFINITY;
     r->primitive[i] = HIT_NONE;
@@ -166,12 +171,13 @@ OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, vola
                        {r->direction[0], r->direction[1], r->direction[2]}, r->t, r->u, r->v, r->primitive};
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &shadows);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
-  for (uint i = 0; i < count; ++i)
-    for (uint k = 0; k < 3; ++k) r->reflected[k][i] = r->primitive[i] == HIT_NONE ? r->reflected[k][i] : 0;
+  for (uint i = 0; i < count; ++i) {
+    bool arrives = receiver_asks(r, i) && r->primitive[i] == HIT_NONE;
+    for (uint k = 0; k < 3; ++k) r->reflected[k][i] = arrives ? r->reflected[k][i] : 0;
+  }
 #else
   for (uint i = 0; i < count; ++i) {
-    if (!(max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0)) continue;
-    if (shadowed(scene, receiver_ray(r, i), r->distance[i], &rays, counters))
+    if (!receiver_asks(r, i) || shadowed(scene, receiver_ray(r, i), r->distance[i], &rays, counters))
       r->reflected[0][i] = r->reflected[1][i] = r->reflected[2][i] = 0;
   }
 #endif
