@@ -23,20 +23,17 @@ INLINE PacketTile packet_tile(uint samples) {
 
 // The ray of path number `sample` of a pixel, which meets nothing yet, in place i of the packet.
 INLINE void first_ray_put(const Params *params, uint x, uint y, uint sample, bool even, RayPacket *rays, uint i) {
-  Ray ray = path_ray(params, x, y, sample, even);
-  rays->origin[0][i] = ray.origin.x, rays->origin[1][i] = ray.origin.y, rays->origin[2][i] = ray.origin.z;
-  rays->direction[0][i] = ray.direction.x, rays->direction[1][i] = ray.direction.y;
-  rays->direction[2][i] = ray.direction.z;
-  rays->t[i] = INFINITY, rays->u[i] = rays->v[i] = 0;
-  rays->primitive[i] = HIT_NONE, rays->faults[i] = 0;
+  packet_set(rays, i, path_ray(params, x, y, sample, even), hit_none(INFINITY));
 }
 
-// The rays of a packet's paths. Even numbers are drawn by vectors where the device has a loop's items in turn (vector.cl);
-// strata of the others ask for divisions, which it has none for.
+// The rays of a packet's paths. With even numbers the loop is vectorised; the strata of others ask for divisions of
+// integers, for which there are no vector instructions.
 INLINE void first_rays(const Params *settings, const uint *x, const uint *y, const uint *samples, RayPacket *rays) {
   const Params params = *settings;
   if (params.sobol != 0) {
+#if VECTORISED(0u)
 #pragma clang loop vectorize(assume_safety)
+#endif
     for (uint i = 0; i < PACKET_RAYS; ++i) first_ray_put(&params, x[i], y[i], samples[i], true, rays, i);
   } else {
     for (uint i = 0; i < PACKET_RAYS; ++i) first_ray_put(&params, x[i], y[i], samples[i], false, rays, i);

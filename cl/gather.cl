@@ -58,22 +58,24 @@ INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
 
 // Whether photons with these words of marks and normal landed on the side that a visible point's normal is of: the cosine
 // of the two is more than GATHER_NORMAL_COSINE.
+INLINE int8 same_side_by_floats(int8 photons, uint normal) {
+  float3 n = normal_unpack(normal) * (1.0f / 127.0f);
+  return n.x * convert_float8(photons << 24 >> 24) + n.y * convert_float8(photons << 16 >> 24) +
+             n.z * convert_float8(photons << 8 >> 24) > GATHER_NORMAL_COSINE;
+}
 #ifdef __AVX2__
 typedef char Bytes __attribute__((ext_vector_type(32)));
 typedef short Words __attribute__((ext_vector_type(16)));
-// Four products of bytes at once, in a third of the instructions that floats take, and the same: 127 squared times
-// the cosine is a whole number. x86 multiplies bytes without sign by bytes with one, which takes that of both.
+// Four products of bytes at once, in a third of the instructions that floats take, and the same: the product is a whole
+// number, so that the limit may be rounded down. x86 multiplies bytes without a sign by bytes with one, which has to be
+// that of both.
 INLINE int8 same_side(int8 photons, uint normal) {
   Bytes p = __builtin_astype(photons, Bytes), n = __builtin_astype((int8)(int)(normal & 0xffffffu), Bytes);
   Words sums = __builtin_ia32_pmaddubsw256(__builtin_ia32_psignb256(p, p), __builtin_ia32_psignb256(n, p));
   return __builtin_ia32_pmaddwd256(sums, (Words)1) > (int)(GATHER_NORMAL_COSINE * 127 * 127);
 }
 #else
-INLINE int8 same_side(int8 photons, uint normal) {
-  float3 n = normal_unpack(normal) * (1.0f / 127.0f);
-  return n.x * convert_float8(photons << 24 >> 24) + n.y * convert_float8(photons << 16 >> 24) +
-             n.z * convert_float8(photons << 8 >> 24) > GATHER_NORMAL_COSINE;
-}
+INLINE int8 same_side(int8 photons, uint normal) { return same_side_by_floats(photons, normal); }
 #endif
 
 // Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the

@@ -9,7 +9,8 @@ typedef struct {
   real distance;
   real3 weight;     // radiance / pdf; zero where nothing arrives
   real pdf;         // per solid angle, the choice of emitter included; infinite for delta lights
-  real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself
+  real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself; of no meaning where
+                    // the weight is zero
 } LightSample;
 
 // The number made of all 24 bits of u and the low 23 bits of v: the 24 bits of one random number are too few to choose

@@ -162,8 +162,8 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 
 #if RECEIVERS_SIDE_BY_SIDE
 // Paths [first, end) of the chunk. Returns the number of rays.
-OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, uint end, global VisiblePoint *visible_points,
-                          volatile global Counters *counters, global const SppmPixel *pixels) {
+OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, uint end,
+                          global VisiblePoint *visible_points, volatile global Counters *counters, global const SppmPixel *pixels) {
   Receivers receivers;
   uint count = 0, rays = 0, others[WAVE_CAPACITY], other_count = 0, samples = params->visible_points;
   uint pixel = params->first_pixel + first / samples, sample = first % samples;
@@ -190,6 +190,7 @@ OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, 
 }
 #endif
 
+// Traces the camera paths of a chunk. Where they end side by side, one item of a work-group traces those of all.
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params, global const SppmPixel *pixels) {
   uint index = get_global_id(0), rays = 0, paths = params.pixel_count * params.visible_points;

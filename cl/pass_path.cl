@@ -5,7 +5,8 @@
 #include "unlikely_lobe.cl"
 #include "work_group.cl"
 
-// The ray with which the path of this pass through pixel (x, y) begins. `even`: as PathSampler.sobol is not 0. Of
+// The ray with which the path of this pass through pixel (x, y) begins, whose number among the pixel's is 0, as first_hits.cl
+// asks for both integrators. `even`: as PathSampler.sobol is not 0. Of
 // independent numbers four consecutive samples stratify a pixel 2 x 2; each pixel begins with a stratum of its own, so that
 // a count that four does not divide shifts nothing.
 INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {

@@ -1,17 +1,9 @@
 // Camera paths that have come to a diffuse surface, side by side: their visible points, and light that comes there straight
 // from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and wave.cl).
 #include "coverage.cl"
-#include "coverage_mean.cl"
 #include "direct.cl"
 #include "grid.cl"
 #include "wave.cl"
-#if defined(CAMERA_PACKETS) || defined(WAVE_BRUTE_FORCE)
-#include "triangle_packet.cl"  // which either may be the first to ask for
-#endif
-#ifdef WAVE_BRUTE_FORCE
-#include "brute_force.cl"
-#endif
-
 // Effects that ask for loops, or for arithmetic of whole vectors, on the way, or for more than a receiver keeps. Lobes that
 // no diffuse surface has do not matter.
 #define LOOPED_RECEIVERS                                                                                        \
@@ -19,8 +11,16 @@
    EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | OUTPUT_LAYERS)
 #define RECEIVERS_SIDE_BY_SIDE VECTORISED(LOOPED_RECEIVERS)
 
-// By component: the last ray of each path and its hit, what the path carries, and what is found out about its end. All that
-// are read by a loop are set up to wave_padded() of the number of receivers.
+#if defined(CAMERA_PACKETS) || defined(WAVE_BRUTE_FORCE)
+#include "triangle_packet.cl"  // which either may be the first to ask for
+#endif
+#if RECEIVERS_SIDE_BY_SIDE && defined(WAVE_BRUTE_FORCE)
+#include "brute_force.cl"
+#define SHADOWS_BY_BRUTE_FORCE
+#endif
+
+// By component: the last ray of each path and its hit, what the path carries, and what is found out about its end. What
+// loops over them read is set up to wave_padded() of their number; rays beyond are masked where packets of sixteen are read.
 typedef struct {
   real origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY];
   real t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
@@ -78,7 +78,7 @@ INLINE bool receiver_reflects(const Receivers *r, uint i) {
   return max(r->weight[0][i], max(r->weight[1][i], r->weight[2][i])) > 0;
 }
 
-// The visible point of path i, its emission, and the numbers that draw its light.
+// What camera_path() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
 INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *r, uint i, uint sobol) {
   Ray ray = receiver_ray(r, i);
   Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
@@ -133,9 +133,9 @@ INLINE void receiver_light(const Scene *scene, Receivers *r, uint i) {
   real3 weight = (real3)(r->weight[0][i], r->weight[1][i], r->weight[2][i]);
   real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
   Bsdf bsdf;
-  bsdf.coated = false;
-  UnshadowedLight light = unshadowed_light(scene, r->emitter[i], &bsdf, &surface, interior_none(), receiver_ray(r, i).direction,
-                                           n, weight, random, false);
+  bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
+  UnshadowedLight light = unshadowed_light(scene, r->emitter[i], &bsdf, &surface, interior_none(),
+                                           receiver_ray(r, i).direction, n, weight, random, false);
   real3 o = light.shadow.origin, d = light.shadow.direction, l = light.reflected;
   r->origin[0][i] = o.x, r->origin[1][i] = o.y, r->origin[2][i] = o.z;
   r->direction[0][i] = d.x, r->direction[1][i] = d.y, r->direction[2][i] = d.z;
@@ -159,7 +159,7 @@ INLINE bool receiver_asks(const Receivers *r, uint i) {
 // Leaves light alone that is positive and that nothing is in the way of. Returns the number of rays.
 OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, volatile global Counters *counters) {
   uint rays = 0;
-#ifdef WAVE_BRUTE_FORCE
+#ifdef SHADOWS_BY_BRUTE_FORCE
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     bool asks = receiver_asks(r, i);

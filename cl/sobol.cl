@@ -74,7 +74,8 @@ INLINE real4 path_random4(const PathSampler *sampler, uint dimension) {
   return uniform4(points ^ shift);
 }
 
-// The same for loops over paths that are to be vectorised, where `sobol` is known when they are compiled.
+// The same for loops over paths that are to be vectorised, where `sobol` is known when they are compiled: they take scalars
+// alone, while elsewhere four words shifted at once are worth 4% of a camera path.
 INLINE real4 path_random4_parts(const PathSampler *sampler, uint dimension) {
   if (sampler->sobol == 0) return random4(sampler->stream, dimension);
   uint4 shift, points = sobol_points(sampler, dimension, &shift);

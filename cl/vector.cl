@@ -1,11 +1,22 @@
-// Arithmetic of real3 component by component. Compilers that turn loops over paths into vector code (PoCL's) take
+// Arithmetic of real3 component by component, and which loops are vectorised. Compilers that turn loops over paths into vector code (PoCL's) take
 // scalars alone: a loop that holds an operation on a real3, or merges two of them where branches meet, stays scalar.
-// What a loop over a wave of photons calls is therefore written with these; a real3 that is only made and taken apart
+// What a loop over photons, camera rays or ends of camera paths calls is therefore written with these; a real3 that is only made and taken apart
 // costs nothing. Sums go from left to right, as those of dot3().
 #ifndef CAUSTICL_VECTOR_CL
 #define CAUSTICL_VECTOR_CL
 
+#include "effects.h"
 #include "prelude.cl"
+
+// Whether a loop of independent steps is to be vectorised where effects in `looped` would keep it from that: where the
+// items of a work-group run one after the other, as PoCL's do. Other devices have vectors of items.
+#if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(CAUSTICL_DOUBLE)
+// The driver vectorises when it makes the kernel of a program, and would warn that it did not before.
+#pragma clang diagnostic ignored "-Wpass-failed"
+#define VECTORISED(looped) ((EFFECTS & (looped)) == 0u)
+#else
+#define VECTORISED(looped) 0
+#endif
 
 INLINE real3 sum3(real3 a, real3 b) { return (real3)(a.x + b.x, a.y + b.y, a.z + b.z); }
 INLINE real3 difference3(real3 a, real3 b) { return (real3)(a.x - b.x, a.y - b.y, a.z - b.z); }

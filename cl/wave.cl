@@ -16,20 +16,13 @@
 #define WAVE_STEP (WAVE_CAPACITY < 8u ? WAVE_CAPACITY : 8u)
 INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STEP * WAVE_STEP; }
 
-// Whether the loop over a step is vectorised: not with effects that ask for loops, or for arithmetic of whole vectors,
+// Effects with which the loop over a step is not vectorised: those that ask for loops, or for arithmetic of whole vectors,
 // on the way. Then branches spare work, which selections would do for nothing.
 #define LOOPED_EVENTS                                                                                        \
   (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_CONDUCTOR |        \
    EFFECT_PLASTIC | EFFECT_ABSORPTION | EFFECT_DISPERSION | EFFECT_MEDIUM)
 #define LOOPED_EMISSION \
   (EFFECT_BEZIER | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_ABSORPTION | EFFECT_MEDIUM)
-#if WAVE_CAPACITY > 1u && !defined(CAUSTICL_DOUBLE)
-// The driver vectorises when it makes the kernel of a program, and would warn that it did not before.
-#pragma clang diagnostic ignored "-Wpass-failed"
-#define VECTORISED(looped) ((EFFECTS & (looped)) == 0u)
-#else
-#define VECTORISED(looped) 0
-#endif
 
 // Whether the rays of a wave meet all primitives in place of walking the tree each: the host asks for it where they are
 // few.

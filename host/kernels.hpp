@@ -27,8 +27,7 @@ struct KernelOptions {
   std::string kernel_dir;       // read cl/ live from here; empty: the embedded sources
   std::string dump_kernels;     // write each flattened source here; empty: do not
   bool camera_packets = false;  // "camera" and "path" have a kernel first_hits, and need what it finds
-  bool brute_force =
-      false;  // "photon" and the shadow rays of "camera" meet every primitive: see photon_rays.hpp
+  bool brute_force = false;     // "photon" and "camera" meet every primitive: see photon_rays.hpp
 };
 
 /// The EFFECT_* bits that the kernels of a pass ask for; the others change nothing in its program.

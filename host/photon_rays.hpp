@@ -1,4 +1,5 @@
-// How photons find what they meet next, and shadow rays of camera paths what is in their way.
+// How photons find what they meet next, and shadow rays of camera paths what is in their way where
+// those end side by side (cl/receivers.cl).
 #pragma once
 
 #include <string>

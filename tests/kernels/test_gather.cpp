@@ -126,6 +126,44 @@ TEST_CASE("the gather equals brute force exactly for every table, radius and pla
   }
 }
 
+TEST_CASE("sides are told apart alike by floats, by bytes where the device has that, and exactly") {
+  auto sides = build_test_program(R"(
+#include "gather.cl"
+kernel void sides(global const uint *photons, global const uint *points, global uint2 *out, uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  out[i] = (uint2)(same_side(as_int8((uint8)photons[i]), points[i]).s3, same_side_by_floats(as_int8((uint8)photons[i]), points[i]).s3);
+}
+)");
+  RandomInputs random(88);
+  const auto dot = [](uint a, uint b) {
+    const auto p = normal_components(a), q = normal_components(b);
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  };
+  std::vector<uint> photons, points;
+  int at_the_limit = 0;
+  while (photons.size() < 100000 || at_the_limit < 100) {
+    // Marks and probes in the highest byte are of no matter.
+    const uint a = random_normal(random) | static_cast<uint>(random.engine()) << 24;
+    const uint b = random_normal(random) | static_cast<uint>(random.engine()) << 24;
+    const bool near_limit = dot(a, b) == 8064 || dot(a, b) == 8065;
+    at_the_limit += near_limit;
+    if (photons.size() >= 100000 && !near_limit) continue;
+    photons.push_back(a);
+    points.push_back(b);
+  }
+  const auto in = test_device().upload(photons, "photons"), of = test_device().upload(points, "points");
+  const auto out = test_device().buffer(photons.size() * sizeof(uint2), "sides");
+  run_kernel(sides, "sides", photons.size(), in, of, out, cl_uint(photons.size()));
+  const auto found = test_device().download<uint2>(out, photons.size());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    const bool same = 2 * dot(photons[i], points[i]) > 127 * 127;
+    wrong += (found[i].x != 0) != same || (found[i].y != 0) != same;
+  }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("gathered sums depend neither on the order of photons nor on the work-group") {
   RandomInputs random(82);
   const Space room{{0, 0, 0}, 1};

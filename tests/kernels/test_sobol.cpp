@@ -17,13 +17,14 @@ struct Path {
 const char* const source = R"(
 #include "sobol.cl"
 typedef struct { uint pass, pixel, sample, samples, dimension, seed, sobol; } Path;
-kernel void draw(global const Path *paths, global float4 *numbers, global float4 *independent, global uint4 *hashes,
-                 uint count) {
+kernel void draw(global const Path *paths, global float4 *numbers, global float4 *parts, global float4 *independent,
+                 global uint4 *hashes, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   Path p = paths[i];
   PathSampler sampler = path_sampler(p.seed, p.pass, p.pixel, p.sample, p.samples, p.sobol);
   numbers[i] = convert_float4(path_random4(&sampler, p.dimension));
+  parts[i] = convert_float4(path_random4_parts(&sampler, p.dimension));
   RandomStream stream = {p.seed, p.pass, p.pixel * p.samples + p.sample};
   independent[i] = convert_float4(random4(stream, p.dimension));
   hashes[i] = pcg4d((uint4)(p.pixel, 0x80000000u + half_of_passes(p.pass), p.dimension, p.seed));
@@ -31,7 +32,7 @@ kernel void draw(global const Path *paths, global float4 *numbers, global float4
 )";
 
 struct Drawn {
-  std::vector<float4> numbers, independent;
+  std::vector<float4> numbers, parts, independent;
   std::vector<uint4> hashes;
 };
 
@@ -39,12 +40,18 @@ Drawn draw(const std::vector<Path>& paths) {
   auto program = build_test_program(source);
   const auto in = test_device().upload(paths, "paths");
   const auto numbers = test_device().buffer(paths.size() * sizeof(float4), "numbers");
+  const auto parts = test_device().buffer(paths.size() * sizeof(float4), "numbers");
   const auto independent = test_device().buffer(paths.size() * sizeof(float4), "independent");
   const auto hashes = test_device().buffer(paths.size() * sizeof(uint4), "hashes");
-  run_kernel(program, "draw", paths.size(), in, numbers, independent, hashes, cl_uint(paths.size()));
+  run_kernel(program, "draw", paths.size(), in, numbers, parts, independent, hashes, cl_uint(paths.size()));
   return {test_device().download<float4>(numbers, paths.size()),
+          test_device().download<float4>(parts, paths.size()),
           test_device().download<float4>(independent, paths.size()),
           test_device().download<uint4>(hashes, paths.size())};
+}
+
+bool same_numbers(const float4& a, const float4& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
 std::uint32_t reversed(std::uint32_t x) {
@@ -99,6 +106,7 @@ TEST_CASE(
     const auto first = sobol(reversed(scrambled(reversed(index), hash.x)));
     const auto other = sobol(reversed(scrambled(reversed(index), hash.w)));
     const float4 v = drawn.numbers[i];
+    wrong += !same_numbers(v, drawn.parts[i]);
     wrong += v.x != number(first[0] ^ hash.y) || v.y != number(first[1] ^ hash.z) ||
              v.z != number(other[0] ^ (hash.y << 16 | hash.x >> 16)) ||
              v.w != number(other[1] ^ (hash.z << 16 | hash.w >> 16));
@@ -113,6 +121,7 @@ TEST_CASE("numbers of camera paths are independent ones where the program is tol
   const Drawn drawn = draw(paths);
   std::size_t alike[2] = {0, 0};
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    CHECK(same_numbers(drawn.numbers[i], drawn.parts[i]));
     const float4 a = drawn.numbers[i], b = drawn.independent[i];
     alike[paths[i].sobol] += a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }

@@ -121,23 +121,18 @@ inline std::vector<GatherSums> gather_photons(Device& device, const cl::Program&
   return device.download<GatherSums>(out, points.size());
 }
 
-/// All photons tried for one point. The same single-precision comparisons as in gather.cl, so that the sums
-/// must be equal.
+/// All photons tried for one point. The same single-precision comparison of distances as in gather.cl, and
+/// normals compared exactly, so that the sums must be equal.
 inline GatherSums gather_brute_force(const GatherPoint& p, const std::vector<Photon>& photons,
                                      float radius2) {
   GatherSums sums;
-  float n[3];
-  for (int axis = 0; axis < 3; ++axis)
-    n[axis] = static_cast<float>(normal_components(p.normal)[axis]) * (1.0f / 127) * (1.0f / 127);
+  const auto n = normal_components(p.normal);
   for (const Photon& photon : photons) {
     const float dx = photon.position[0] - p.x, dy = photon.position[1] - p.y, dz = photon.position[2] - p.z;
     const float distance2 = dx * dx + dy * dy + dz * dz;
     if (!(distance2 <= radius2)) continue;
     const auto q = normal_components(photon.normal);
-    if (!(n[0] * static_cast<float>(q[0]) + n[1] * static_cast<float>(q[1]) +
-              n[2] * static_cast<float>(q[2]) >
-          0.5f))
-      continue;
+    if (2 * (n[0] * q[0] + n[1] * q[1] + n[2] * q[2]) <= 127 * 127) continue;
     sums.red += photon.flux_rg & 0xffffu;
     sums.green += photon.flux_rg >> 16;
     sums.blue += photon.flux_b;
