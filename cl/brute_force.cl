@@ -150,7 +150,6 @@ INLINE uint brute_force_closest(global const KdNode *nodes, global const Triangl
     int16 member = lanes + first < count;
     PacketHits hits = {member ? vload16(0, rays->t + first) : (float16)-INFINITY, vload16(0, rays->u + first),
                        vload16(0, rays->v + first), vload16(0, rays->primitive + first), (uint16)HIT_NONE, 0};
-    if (packet_bits(hits.t > 0) == 0) continue;
     meet_all(nodes, blocks, shapes, first_shape, &r, &hits);
     packet_store(&hits, member, rays->t + first, rays->u + first, rays->v + first, rays->primitive + first);
     for (uint again = hits.again; again != 0; again &= again - 1u) {

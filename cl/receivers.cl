@@ -222,7 +222,7 @@ OUTLINE uint receivers_finish(const Scene *scene, const Params *params, uint cou
   uint padded = wave_padded(count);
   for (uint i = count; i < padded; ++i) receivers_repeat(r, i);
   receivers_find_points(scene, params, padded, r);
-  uint rays = params->coverage ? receivers_probe(scene, params, count, r, pixels, counters) : 0;
+  uint rays = receivers_probe(scene, params, count, r, pixels, counters);
   bool lit = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   if (lit) {
     for (uint i = 0; i < padded; ++i) r->emitter[i] = emitter_choose(scene, r->random[0][i], r->random[3][i]);

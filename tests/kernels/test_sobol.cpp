@@ -40,7 +40,7 @@ Drawn draw(const std::vector<Path>& paths) {
   auto program = build_test_program(source);
   const auto in = test_device().upload(paths, "paths");
   const auto numbers = test_device().buffer(paths.size() * sizeof(float4), "numbers");
-  const auto parts = test_device().buffer(paths.size() * sizeof(float4), "numbers");
+  const auto parts = test_device().buffer(paths.size() * sizeof(float4), "parts");
   const auto independent = test_device().buffer(paths.size() * sizeof(float4), "independent");
   const auto hashes = test_device().buffer(paths.size() * sizeof(uint4), "hashes");
   run_kernel(program, "draw", paths.size(), in, numbers, parts, independent, hashes, cl_uint(paths.size()));

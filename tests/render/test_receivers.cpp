@@ -11,7 +11,7 @@ using namespace causticl;
 
 namespace {
 
-/// A room of ten walls and blocks with a lamp of each kind that has an area, glass and a mirror.
+/// A floor and a wall with a ball, a lamp of each kind that has an area, glass and a mirror.
 Scene lamps_and_glass(int width, int height) {
   Scene scene = scene_from_text(R"({
     "width": 8, "height": 8, "max_depth": 9,
@@ -91,7 +91,10 @@ TEST_CASE("camera paths that end side by side give the picture of those that end
 }
 
 TEST_CASE("camera paths that end side by side give the picture of those that end alone: many primitives") {
-  if (!test_device().runs_items_in_turn()) return;
+  if (!test_device().runs_items_in_turn()) {
+    WARN("skipped: on this device every path ends alone, and programs differ by roundings");
+    return;
+  }
   check_same(shipped_scene("effects/next_room.json", 40, 30));  // shadow rays through the tree
   check_same(shipped_scene("cornell_box.json", 163, 211));      // launches that end within a row
 }
