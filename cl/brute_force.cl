@@ -5,19 +5,12 @@
 // The hits are those of kdtree_closest() to the bit. A ray that meets two primitives at the same distance is traced again
 // on its own, since then the order in which it comes to them decides.
 //
-// For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most.
+// For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most. Arrays of rays
+// hold whole packets.
 #include "kdtree.cl"
 #include "triangle_packet.cl"
 
-// Rays, and up to where they are traced or what they have met so far, as Ray and Hit have them. All arrays hold whole
-// packets.
-typedef struct {
-  const float *origin[3], *direction[3];
-  float *t, *u, *v;
-  uint *primitive;
-} RayArrays;
-
-// A packet of them. Their largest components may lie along different axes: the order of axes that TriangleRay has for
+// A packet of rays. Their largest components may lie along different axes: the order of axes that TriangleRay has for
 // each is a choice between coordinates.
 typedef struct {
   float16 origin_x, origin_y, origin_z;

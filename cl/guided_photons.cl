@@ -48,7 +48,7 @@ INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint n
 }
 
 // Decides which records of the last event stay, by where they lie, and keeps the lists of seeds and of accepted copies.
-OUTLINE void wave_guide(const Guide *guide, const Params *params, uint depth, uint count, Wave *wave,
+OUTLINE void wave_guide(const Guide *guide, const Params *params, uint count, Wave *wave,
                         volatile global Counters *counters) {
   bool scouts = params->photon_role == PHOTONS_SCOUTS;
   uint seeds = 0;
@@ -62,7 +62,7 @@ OUTLINE void wave_guide(const Guide *guide, const Params *params, uint depth, ui
     wave->useful[i] = scouts ? 2 : 1;  // 2: not in the list yet
     seeds += scouts ? 1 : 0;
     if (params->photon_role != PHOTONS_COPIES) continue;
-    if (guide->seeds[wave->seed[i]].y == depth)
+    if (guide->seeds[wave->seed[i]].y == wave->depth[i])
       atomic_inc(guide->accepted + wave->seed[i]);
     else
       wave->events[i] = 0;
@@ -71,7 +71,7 @@ OUTLINE void wave_guide(const Guide *guide, const Params *params, uint depth, ui
   uint slot = list_reserve(seeds, &counters->seeds);
   for (uint i = 0; i < count; ++i) {
     if (wave->useful[i] != 2) continue;
-    guide->seeds[slot++] = (uint2)(wave->index[i], depth);
+    guide->seeds[slot++] = (uint2)(wave->index[i], wave->depth[i]);
     wave->useful[i] = 1;
   }
 }

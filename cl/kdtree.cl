@@ -31,27 +31,48 @@ typedef struct {
   size_t near_x, near_y, near_z, far_x, far_y, far_z;
 } SlabRay;
 
-INLINE SlabRay slab_ray(Ray ray, global const KdNode *root) {
-  float3 o = convert_float3(ray.origin), d = convert_float3(ray.direction);
-  SlabRay s;
+// What of a SlabRay belongs to one axis, whose low planes are `row` floats from the first.
+typedef struct {
+  float inverse, widening, enter, leave;
+  uint near, far;
+} SlabAxis;
+
+// `farthest`: the largest distance along an axis between the origin and a point of the tree.
+INLINE SlabAxis slab_axis(float origin, float direction, float farthest, uint row) {
+  SlabAxis s;
   // 1e-18 in place of 0 keeps every product finite for scenes up to 1e18 and below every widening.
-  float3 size = fmax(fabs(d), (float3)1e-18f);
-  s.origin = o;
-  s.inverse = copysign(1.0f / size, d);
-  // From the origin to one corner of the tree, and from there to any other point.
-  float3 corner = (float3)(root->bounds[0][0], root->bounds[1][0], root->bounds[2][0]);
-  float3 distance = fabs(o - corner);
-  float farthest = max(distance.x, max(distance.y, distance.z)) + root->extent;
+  float size = fabs(direction) > 1e-18f ? fabs(direction) : 1e-18f;
+  s.inverse = copysign(1.0f / size, direction);
   // 8 roundings of the distance, and 2 of the origin: plane * inverse - origin * inverse is one fma() a plane. A
   // third of the origin where it was rounded above; that of the direction counts with the distance, of whose 8 an
   // exact triangle test needs none.
-  float3 width = (8 * UNIT) * farthest + ((sizeof(real) > sizeof(float) ? 3 : 2) * UNIT) * fabs(o);
+  float width = (8 * UNIT) * farthest + ((sizeof(real) > sizeof(float) ? 3 : 2) * UNIT) * fabs(origin);
   s.widening = fabs(s.inverse) * width;
-  s.enter = -o * s.inverse - s.widening;
-  s.leave = -o * s.inverse + s.widening;
-  size_t x = signbit(d.x) ? 24 : 0, y = signbit(d.y) ? 24 : 0, z = signbit(d.z) ? 24 : 0;
-  s.near_x = x, s.near_y = 8 + y, s.near_z = 16 + z;
-  s.far_x = 24 - x, s.far_y = 32 - y, s.far_z = 40 - z;
+  s.enter = -origin * s.inverse - s.widening;
+  s.leave = -origin * s.inverse + s.widening;
+  uint high = (as_uint(direction) >> 31) * 24u;
+  s.near = row + high, s.far = row + 24u - high;
+  return s;
+}
+
+// From (x, y, z) to one corner of the tree, and from there to any other point.
+INLINE float farthest_in_tree(global const KdNode *root, float x, float y, float z) {
+  float from_x = fabs(x - root->bounds[0][0]), from_y = fabs(y - root->bounds[1][0]), from_z = fabs(z - root->bounds[2][0]);
+  return max(from_x, max(from_y, from_z)) + root->extent;
+}
+
+INLINE SlabRay slab_ray(Ray ray, global const KdNode *root) {
+  float3 o = convert_float3(ray.origin), d = convert_float3(ray.direction);
+  float farthest = farthest_in_tree(root, o.x, o.y, o.z);
+  SlabAxis x = slab_axis(o.x, d.x, farthest, 0), y = slab_axis(o.y, d.y, farthest, 8), z = slab_axis(o.z, d.z, farthest, 16);
+  SlabRay s;
+  s.origin = o;
+  s.inverse = (float3)(x.inverse, y.inverse, z.inverse);
+  s.widening = (float3)(x.widening, y.widening, z.widening);
+  s.enter = (float3)(x.enter, y.enter, z.enter);
+  s.leave = (float3)(x.leave, y.leave, z.leave);
+  s.near_x = x.near, s.near_y = y.near, s.near_z = z.near;
+  s.far_x = x.far, s.far_y = y.far, s.far_z = z.far;
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include "aimed_photons.cl"
 #include "direct.cl"
 #include "guided_photons.cl"
+#include "kdtree_wave.cl"
 #ifdef WAVE_BRUTE_FORCE
 #include "brute_force.cl"
 #endif
@@ -129,29 +130,30 @@ INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) 
   return stream;
 }
 
-// Starts `count` photons of the pass, from number `first` on.
+// Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the wave.
 OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
-                       uint count, Wave *wave) {
+                       uint alive, uint count, Wave *wave) {
   const Scene scene = *from;
   const Params params = *settings;
   global const AimCell *cells = aims->cells;
-  for (uint i = 0; i < count; ++i) {
-    PhotonStart start = {first + i, 0, 0, 0, 1};
+  for (uint i = alive; i < alive + count; ++i) {
+    PhotonStart start = {first + i - alive, 0, 0, 0, 1};
     if (HAS(EFFECT_GUIDED_PHOTONS)) {
-      start = guided_start(guide, &params, first + i);
+      start = guided_start(guide, &params, first + i - alive);
       wave->copy[i] = start.copy;
       wave->fresh[i] = start.fresh;
       wave->seed[i] = start.seed;
       wave->useful[i] = 0;
     }
     wave->index[i] = start.path;
+    wave->depth[i] = 0;
     wave->flux[0][i] = start.share;  // until the photon has a flux of its own
     wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
   }
 #if VECTORISED(LOOPED_EMISSION)
 #pragma clang loop vectorize(assume_safety)
 #endif
-  for (uint i = 0; i < count; ++i) {
+  for (uint i = alive; i < alive + count; ++i) {
     RandomStream stream = wave_stream(&params, wave, i);
     real4 random = random4(stream, DIM_EMISSION);
     real u = random.x, v = random.y, share = 1;
@@ -172,7 +174,7 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
-#ifdef WAVE_BRUTE_FORCE
+#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
     planes_closest(g, wave_ray(wave, i), &hit);
 #else
     geometry_closest(g, wave_ray(wave, i), &hit);
@@ -180,17 +182,23 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
 #endif
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
-#ifdef WAVE_BRUTE_FORCE
+#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
   RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
                     {wave->direction[0], wave->direction[1], wave->direction[2]},
                     wave->t, wave->u, wave->v, wave->primitive};
+#endif
+#if defined(WAVE_BRUTE_FORCE)
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
+#elif defined(KDTREE_WAVES)
+  uint faults[WAVE_CAPACITY];
+  kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, faults);
+  for (uint i = 0; i < count; ++i) count_faults(faults[i], counters);
 #endif
 }
 
 // Takes each photon past its hit.
-OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth, uint count, Wave *wave) {
+OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count, Wave *wave) {
   const Scene scene = *from;
   const Params params = *settings;
 #if VECTORISED(LOOPED_EVENTS)
@@ -203,7 +211,7 @@ OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint depth,
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
       PhotonState photon = wave_get(wave, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_event(&scene, &params, stream, depth, hit, &photon, &record);
+      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
       wave_put(wave, i, &photon);
       wave_put_record(wave, i, &record);
     }
@@ -250,36 +258,43 @@ OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, ui
   }
 }
 
-// Moves the photons that go on to the front. Returns how many they are.
-OUTLINE uint wave_compact(uint count, Wave *wave) {
-  uint alive = 0;
-  for (uint i = 0; i < count; ++i) {
+// Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are then.
+OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
+  uint alive = first;
+  for (uint i = first; i < end; ++i) {
     wave_move(wave, i, alive);
     alive += wave->events[i] & EVENT_ALIVE;
   }
   return alive;
 }
 
-// Traces photons [first, first + count) of the pass, all of them one event at a time. Returns the number of rays.
+// Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that have
+// ended. Returns the number of rays.
 OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
-                        uint count, global Photon *photons, volatile global Counters *counters) {
+                        uint end, global Photon *photons, volatile global Counters *counters) {
   Wave wave;
-  uint rays = 0;
-  wave_emit(scene, params, guide, aim, first, wave_padded(count), &wave);
-  uint alive = wave_compact(count, &wave);
-  for (uint depth = 0; depth < params->max_depth && alive > 0; ++depth) {
+  uint rays = 0, alive = 0;
+  if (params->max_depth == 0) return 0;
+  while (first < end || alive > 0) {
+    uint room = (WAVE_CAPACITY - alive) / WAVE_STEP * WAVE_STEP, fresh = min(end - first, room);
+    if (fresh > 0 && (room >= WAVE_REFILL || alive == 0)) {
+      wave_emit(scene, params, guide, aim, first, alive, wave_padded(fresh), &wave);
+      first += fresh;
+      alive = wave_compact(alive, alive + fresh, &wave);
+    }
     rays += alive;
     wave_trace(scene, alive, &wave, counters);
     uint padded = wave_padded(alive);
     for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
-    wave_scatter(scene, params, depth, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
+    wave_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
     if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_SCOUTS)
-      wave_guide(guide, params, depth, alive, &wave, counters);
+      wave_guide(guide, params, alive, &wave, counters);
     if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)
       wave_learn(scene, params, &wave, alive, aim);
     else
       wave_store(alive, &wave, photons, params->photon_capacity, counters);
-    alive = wave_compact(alive, &wave);
+    for (uint i = 0; i < alive; ++i) ++wave.depth[i];
+    alive = wave_compact(0, alive, &wave);
   }
   return rays;
 }
@@ -290,17 +305,22 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
                           Grid cells, global const AimCell *aim_cells, volatile global uint *aim_landed) {
-  uint first = get_global_id(0), count = WAVE_CAPACITY == 1u ? 1u : (uint)get_local_size(0);
-  if (first >= params.photon_count) return;
+  uint first = get_global_id(0), count = 1;
   if (WAVE_CAPACITY > 1u) {
-    if (get_local_id(0) != 0) return;
+    if (get_local_id(0) != 0 || params.photon_count == 0) return;
+    // Few groups with many photons each, spread over all: threads take runs of neighbouring groups.
+    count = (uint)get_local_size(0) * PHOTONS_AN_ITEM;
+    uint group = get_group_id(0), busy = (params.photon_count + count - 1u) / count;
+    uint spread = max((uint)get_num_groups(0) / busy, 1u);
+    if (group % spread != 0) return;
+    first = group / spread * count;
   }
+  if (first >= params.photon_count) return;
   SCENE_INIT(params);
-  uint end = first + min(count, params.photon_count - first), rays = 0;
+  uint end = first + min(count, params.photon_count - first);
   Guide guide = {seeds, accepted, marks, cells};
   Aim aim = {aim_cells, aim_landed};
-  for (; first < end; first += WAVE_CAPACITY)
-    rays += wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, min(end - first, WAVE_CAPACITY), photons,
-                       counters);
+  uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
+                         counters);
   atomic_add(&counters->rays, rays);
 }

@@ -17,6 +17,13 @@ typedef struct {
   uint faults;     // FAULT_* bits of this ray; see faults.cl
 } Hit;
 
+// Rays by component, and up to where they are traced or what they have met so far, as Hit has it.
+typedef struct {
+  const real *origin[3], *direction[3];
+  real *t, *u, *v;
+  uint *primitive;
+} RayArrays;
+
 #define HIT_NONE 0xffffffffu
 #define HIT_SHAPE 0x80000000u
 

@@ -45,14 +45,13 @@ INLINE int min_lane_int(int8 v) {
 INLINE bool block_closest(global const TriangleBlock *blocks, uint index, TriangleRay ray, Hit *hit) {
   real8 t, weight_1, weight_2;
   if (!block_intersect(blocks + index, ray, hit->t, &t, &weight_1, &weight_2)) return false;
-  const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   real nearest = min_lane(t);
-  int lane = min_lane_int(select((int8)8, lanes, mask_lanes(t == nearest)));
+  uint lane = lowest_bit(lane_bits(mask_lanes(t == nearest)));
   real weights[16];
   vstore8(weight_1, 0, weights);
   vstore8(weight_2, 1, weights);
   hit->t = nearest;
-  hit->primitive = index * 8u + (uint)lane;
+  hit->primitive = index * 8u + lane;
   hit->u = weights[lane];
   hit->v = weights[8 + lane];
   return true;

@@ -16,19 +16,16 @@ typedef struct {
 } TriangleRay;
 
 INLINE TriangleRay triangle_ray(Ray ray) {
-  real3 d = ray.direction, o = ray.origin, a = fabs(d);
+  real3 d = ray.direction, o = ray.origin;
+  bool along_x = fabs(d.x) >= fabs(d.y) && fabs(d.x) >= fabs(d.z), along_y = fabs(d.y) >= fabs(d.z);
+  real x = along_x ? d.y : (along_y ? d.z : d.x), y = along_x ? d.z : (along_y ? d.x : d.y);
+  real z = along_x ? d.x : (along_y ? d.y : d.z);
   TriangleRay s;
-  if (a.x >= a.y && a.x >= a.z) {
-    s.x = 8, s.y = 16, s.z = 0;
-    d = d.yzx, o = o.yzx;
-  } else if (a.y >= a.z) {
-    s.x = 16, s.y = 0, s.z = 8;
-    d = d.zxy, o = o.zxy;
-  } else {
-    s.x = 0, s.y = 8, s.z = 16;
-  }
-  s.origin_x = o.x, s.origin_y = o.y, s.origin_z = o.z;
-  s.shear_x = d.x / d.z, s.shear_y = d.y / d.z, s.scale_z = 1 / d.z;
+  s.x = along_x ? 8 : (along_y ? 16 : 0), s.y = along_x ? 16 : (along_y ? 0 : 8), s.z = along_x ? 0 : (along_y ? 8 : 16);
+  s.origin_x = along_x ? o.y : (along_y ? o.z : o.x);
+  s.origin_y = along_x ? o.z : (along_y ? o.x : o.y);
+  s.origin_z = along_x ? o.x : (along_y ? o.y : o.z);
+  s.shear_x = x / z, s.shear_y = y / z, s.scale_z = 1 / z;
   return s;
 }
 
@@ -42,42 +39,59 @@ INLINE real8 signed_difference(real8 a, real8 b, real8 c, real8 d) {
   return (p - q) + (fma(a, b, -p) - fma(c, d, -q));
 }
 
-// Distances t at which the ray meets the triangles of a block; INFINITY in the lanes that it misses (also for
-// t <= 0 and t >= t_max), and the weights of vertices 1 and 2. False if it misses all; then nothing is written.
-INLINE bool block_intersect(global const TriangleBlock *block, TriangleRay ray, real t_max, real8 *t, real8 *weight_1,
-                            real8 *weight_2) {
-  real8 az = block_row(block, 0, ray.z) - ray.origin_z;
-  real8 bz = block_row(block, 1, ray.z) - ray.origin_z;
-  real8 cz = block_row(block, 2, ray.z) - ray.origin_z;
-  real8 ax = fma(-ray.shear_x, az, block_row(block, 0, ray.x) - ray.origin_x);
-  real8 ay = fma(-ray.shear_y, az, block_row(block, 0, ray.y) - ray.origin_y);
-  real8 bx = fma(-ray.shear_x, bz, block_row(block, 1, ray.x) - ray.origin_x);
-  real8 by = fma(-ray.shear_y, bz, block_row(block, 1, ray.y) - ray.origin_y);
-  real8 cx = fma(-ray.shear_x, cz, block_row(block, 2, ray.x) - ray.origin_x);
-  real8 cy = fma(-ray.shear_y, cz, block_row(block, 2, ray.y) - ray.origin_y);
+// The vertices of a block's triangles, moved and sheared.
+typedef struct {
+  real8 ax, ay, az, bx, by, bz, cx, cy, cz;
+} BlockEdges;
+
+// False if the ray misses all triangles of the block.
+INLINE bool block_edges(global const TriangleBlock *block, TriangleRay ray, BlockEdges *e) {
+  e->az = block_row(block, 0, ray.z) - ray.origin_z;
+  e->bz = block_row(block, 1, ray.z) - ray.origin_z;
+  e->cz = block_row(block, 2, ray.z) - ray.origin_z;
+  e->ax = fma(-ray.shear_x, e->az, block_row(block, 0, ray.x) - ray.origin_x);
+  e->ay = fma(-ray.shear_y, e->az, block_row(block, 0, ray.y) - ray.origin_y);
+  e->bx = fma(-ray.shear_x, e->bz, block_row(block, 1, ray.x) - ray.origin_x);
+  e->by = fma(-ray.shear_y, e->bz, block_row(block, 1, ray.y) - ray.origin_y);
+  e->cx = fma(-ray.shear_x, e->cz, block_row(block, 2, ray.x) - ray.origin_x);
+  e->cy = fma(-ray.shear_y, e->cz, block_row(block, 2, ray.y) - ray.origin_y);
 
   // Rounding is monotone: the sign of a difference of rounded products is right or it is zero. Zero counts as
   // inside, so these lanes include every triangle that the ray meets.
-  real8 u = cx * by - cy * bx;
-  real8 v = ax * cy - ay * cx;
-  real8 w = bx * ay - by * ax;
+  real8 u = e->cx * e->by - e->cy * e->bx;
+  real8 v = e->ax * e->cy - e->ay * e->cx;
+  real8 w = e->bx * e->ay - e->by * e->ax;
   // Where vertex 2 is NaN, u and v are, and both selections below keep the NaN of the first.
   real8 low = v < u ? v : u, high = v > u ? v : u;
   low = w < low ? w : low;
   high = w > high ? w : high;
-  if (!any_lane((low >= 0) | (high <= 0))) return false;
+  return any_lane((low >= 0) | (high <= 0));
+}
 
-  u = signed_difference(cx, by, cy, bx);
-  v = signed_difference(ax, cy, ay, cx);
-  w = signed_difference(bx, ay, by, ax);
+// The triangles of a block that the ray meets for 0 < t < t_max, by what block_edges() has found, and for these the
+// distances and the weights of vertices 1 and 2.
+INLINE mask8 edges_meet(const BlockEdges *e, real scale_z, real t_max, real8 *t, real8 *weight_1, real8 *weight_2) {
+  real8 u = signed_difference(e->cx, e->by, e->cy, e->bx);
+  real8 v = signed_difference(e->ax, e->cy, e->ay, e->cx);
+  real8 w = signed_difference(e->bx, e->ay, e->by, e->ax);
   real8 determinant = u + v + w;
   real8 inverse = 1 / determinant;
-  real8 distance = (u * az + v * bz + w * cz) * (ray.scale_z * inverse);
-  mask8 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
-  mask8 met = inside & (determinant != 0) & (distance > 0) & (distance < t_max);
-  if (!any_lane(met)) return false;
-  *t = met ? distance : (real8)INFINITY;
+  *t = (u * e->az + v * e->bz + w * e->cz) * (scale_z * inverse);
   *weight_1 = v * inverse;
   *weight_2 = w * inverse;
+  mask8 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
+  return inside & (determinant != 0) & (*t > 0) & (*t < t_max);
+}
+
+// Distances t at which the ray meets the triangles of a block; INFINITY in the lanes that it misses (also for
+// t <= 0 and t >= t_max), and the weights of vertices 1 and 2. False if it misses all.
+INLINE bool block_intersect(global const TriangleBlock *block, TriangleRay ray, real t_max, real8 *t, real8 *weight_1,
+                            real8 *weight_2) {
+  BlockEdges e;
+  real8 distance;
+  if (!block_edges(block, ray, &e)) return false;
+  mask8 met = edges_meet(&e, ray.scale_z, t_max, &distance, weight_1, weight_2);
+  if (!any_lane(met)) return false;
+  *t = met ? distance : (real8)INFINITY;
   return true;
 }

@@ -4,17 +4,10 @@
 #include "layers.cl"
 #include "rng.cl"
 
-// Photons of a wave at most: those of a usual work-group where the device wants loops, as PoCL does; else a work-item's own.
-// What a wave holds should fit into the first cache, where arrays with room for more would also be in each other's way.
-#if defined(POCL_DEVICE_ADDRESS_BITS)
-#define WAVE_CAPACITY 64u
-#else
-#define WAVE_CAPACITY 1u
-#endif
-
-// Whole vectors spare the loops their scalar remainders.
-#define WAVE_STEP (WAVE_CAPACITY < 8u ? WAVE_CAPACITY : 8u)
-INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STEP * WAVE_STEP; }
+// Photons for each item of a work-group, whose first item traces those of all, and places that must be free before new
+// photons join the wave.
+#define PHOTONS_AN_ITEM 4u
+#define WAVE_REFILL 16u
 
 // Effects with which the loop over a step is not vectorised: those that ask for loops, or for arithmetic of whole vectors,
 // on the way. Then branches spare work, which selections would do for nothing.
@@ -49,6 +42,7 @@ typedef struct {
 typedef struct {
   real origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], flux[3][WAVE_CAPACITY];
   uint index[WAVE_CAPACITY];      // of the photon's path in its pass
+  uint depth[WAVE_CAPACITY];      // events that lie behind it
   uint mark[WAVE_CAPACITY];       // INDIRECT_PHOTON, or 0
   uint primitive[WAVE_CAPACITY];  // as in Hit
   real t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
@@ -103,6 +97,7 @@ INLINE void wave_move(Wave *wave, uint from, uint to) {
     wave->flux[k][to] = wave->flux[k][from];
   }
   wave->index[to] = wave->index[from];
+  wave->depth[to] = wave->depth[from];
   wave->mark[to] = wave->mark[from];
   if (HAS(OUTPUT_LAYERS)) wave->history[to] = wave->history[from];
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[to] = wave->interior[from];

@@ -20,8 +20,11 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
                       (wanted == PhotonRays::automatic && device.info().type == "cpu"));
 }
 
-std::string photon_rays_text(const KernelOptions& options) {
-  return options.brute_force ? "sixteen at a time, each meets every primitive" : "one by one";
+std::string photon_rays_text(const KernelOptions& options, const Device& device) {
+  if (options.brute_force) return "sixteen at a time, each meets every primitive";
+  const bool waves = device.runs_items_in_turn() && options.precision == Precision::float32 &&
+                     options.triangle_test == TriangleTest::watertight;
+  return waves ? "side by side through the tree" : "one by one";
 }
 
 }  // namespace causticl

@@ -9,8 +9,9 @@
 
 namespace causticl {
 
-/// Through the tree one by one, or sixteen at a time by brute force (cl/brute_force.cl); the picture is the
-/// same. `automatic`: by brute force on CPUs where primitives are few.
+/// Through the tree, where the items of a work-group run in turn by waves (cl/kdtree_wave.cl), or sixteen at
+/// a time by brute force (cl/brute_force.cl); the picture is the same. `automatic`: by brute force on CPUs
+/// where primitives are few.
 enum class PhotonRays { automatic, tree, brute_force };
 
 /// Whether the programs of a device are to trace photons and shadow rays by brute force. Never in double
@@ -19,7 +20,8 @@ enum class PhotonRays { automatic, tree, brute_force };
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
                         const KernelOptions& options);
 
-/// What --stats says of it: "sixteen at a time, each meets every primitive", "one by one".
-std::string photon_rays_text(const KernelOptions& options);
+/// What --stats says of photons: "sixteen at a time, each meets every primitive", "side by side through the
+/// tree", "one by one".
+std::string photon_rays_text(const KernelOptions& options, const Device& device);
 
 }  // namespace causticl

@@ -111,8 +111,8 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
     statistics.camera_rays +=
         (statistics.camera_rays.empty() ? "" : " + ") + camera_rays_text(part->programs.options());
     if (statistics.photons)
-      statistics.photon_rays +=
-          (statistics.photon_rays.empty() ? "" : " + ") + photon_rays_text(part->programs.options());
+      statistics.photon_rays += (statistics.photon_rays.empty() ? "" : " + ") +
+                                photon_rays_text(part->programs.options(), part->device);
     statistics.kept_programs += part->device.kept_programs() - part->kept_before;
     for (const auto& [name, time] : part->kernel_times()) {
       statistics.kernels[name].milliseconds += time.milliseconds;

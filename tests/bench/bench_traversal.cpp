@@ -17,6 +17,7 @@ namespace {
 const char* const kernels = R"(
 #include "geometry.cl"
 #include "kdtree_packet.cl"
+#include "kdtree_wave.cl"
 INLINE Ray load_ray(global const float4 *rays, uint i) {
   Ray ray = {convert_real3(rays[2 * i].xyz), convert_real3(rays[2 * i + 1].xyz)};
   return ray;
@@ -52,6 +53,29 @@ kernel void closest_packets(GEOMETRY_PARAMETERS, global const float4 *rays, glob
   GEOMETRY_INIT(0)
   tile_closest(&geometry, rays, distances, side, tile);
 }
+#ifdef KDTREE_WAVES
+OUTLINE void wave_closest(const Geometry *g, global const float4 *rays, global float *distances, uint first, uint count) {
+  float origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
+  uint primitive[WAVE_CAPACITY], faults[WAVE_CAPACITY];
+  for (uint i = 0; i < WAVE_CAPACITY; ++i) {
+    uint at = first + min(i, count - 1u);
+    Ray ray = load_ray(rays, at);
+    origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
+    direction[0][i] = ray.direction.x, direction[1][i] = ray.direction.y, direction[2][i] = ray.direction.z;
+    t[i] = rays[2u * at].w;
+  }
+  RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
+  kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &arrays, count, faults);
+  for (uint i = 0; i < count; ++i) distances[first + i] = t[i];
+}
+// As "closest", by waves of consecutive rays, one for every WAVE_CAPACITY items.
+kernel void closest_waves(GEOMETRY_PARAMETERS, global const float4 *rays, global float *distances, uint count) {
+  uint first = (uint)get_global_id(0);
+  if (first % WAVE_CAPACITY != 0 || first >= count) return;
+  GEOMETRY_INIT(0)
+  wave_closest(&geometry, rays, distances, first, min(WAVE_CAPACITY, count - first));
+}
+#endif
 kernel void occluded(GEOMETRY_PARAMETERS, global const float4 *rays, global uint *result, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
@@ -103,7 +127,9 @@ class MeshBench {
     const auto camera = camera_rays();
     const auto distances = measure("camera", camera);
     measure("packets", camera);
-    measure("random", random_rays());
+    const auto random = random_rays();
+    measure("random", random);
+    if (device_.runs_items_in_turn()) measure("waves", random);
     measure("shadow", shadow_rays(camera, distances));
   }
 
@@ -183,7 +209,11 @@ class MeshBench {
     const bool any = std::string(kind) == "shadow", packets = std::string(kind) == "packets";
     const auto ray_buffer = device_.upload(rays, "rays");
     const auto result_buffer = device_.buffer(rays.size() * sizeof(float), "results");
-    cl::Kernel kernel(program_, any ? "occluded" : packets ? "closest_packets" : "closest");
+    const bool waves = std::string(kind) == "waves";
+    cl::Kernel kernel(program_, any       ? "occluded"
+                                : packets ? "closest_packets"
+                                : waves   ? "closest_waves"
+                                          : "closest");
     set_arguments(kernel, nodes_, blocks_, none_, none_, none_, ray_buffer, result_buffer,
                   static_cast<cl_uint>(rays.size()));
     // Tiles at the edges of the picture are not full.

@@ -12,6 +12,10 @@ namespace {
 
 const std::string by_brute_force = "sixteen at a time, each meets every primitive";
 
+std::string through_tree() {
+  return test_device().runs_items_in_turn() ? "side by side through the tree" : "one by one";
+}
+
 Scene few_photons(const std::string& file, int width, int height) {
   Scene scene = shipped_scene(file, width, height);
   scene.renderer.integrator = Integrator::sppm;
@@ -29,9 +33,9 @@ void check_same(const Scene& scene) {
   const auto tree = render_by(PhotonRays::tree, scene),
              brute_force = render_by(PhotonRays::brute_force, scene);
   INFO(scene.file);
-  CHECK(tree.statistics.photon_rays == "one by one");
+  CHECK(tree.statistics.photon_rays == through_tree());
   CHECK(brute_force.statistics.photon_rays ==
-        (test_device().runs_items_in_turn() ? by_brute_force : "one by one"));
+        (test_device().runs_items_in_turn() ? by_brute_force : through_tree()));
   check_same_render(tree, brute_force);
   CHECK(tree.statistics.stored_photons == brute_force.statistics.stored_photons);
 }
@@ -75,9 +79,9 @@ TEST_CASE(
   for (const char* file : {"2_glass_knot.json", "3_bezier_solids.json", "effects/next_room.json"}) {
     const auto statistics = render_by(PhotonRays::brute_force, few_photons(file, 16, 12)).statistics;
     INFO(file);
-    CHECK(statistics.photon_rays == "one by one");
+    CHECK(statistics.photon_rays == through_tree());
   }
   const bool on_cpu = test_device().info().type == "cpu" && test_device().runs_items_in_turn();
   CHECK(render_by(PhotonRays::automatic, box).statistics.photon_rays ==
-        (on_cpu ? by_brute_force : "one by one"));
+        (on_cpu ? by_brute_force : through_tree()));
 }
