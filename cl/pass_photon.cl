@@ -1,8 +1,8 @@
 // Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
 // medium scatters them.
 #include "aimed_photons.cl"
-#include "direct.cl"
 #include "guided_photons.cl"
+#include "photon_event.cl"
 #include "kdtree_wave.cl"
 #ifdef WAVE_BRUTE_FORCE
 #include "brute_force.cl"
@@ -10,118 +10,6 @@
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
-
-// Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
-INLINE uint flux_quantise(real flux, real random, bool *saturated) {
-  real units = flux * PHOTON_FLUX_UNIT + random;
-  *saturated = *saturated || units >= 65536;
-  return (uint)clamp(units, (real)0, (real)65535);
-}
-
-// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits.
-INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history, real4 dither, Photon *record) {
-  bool saturated = false;
-  uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
-       b = flux_quantise(flux.z, dither.z, &saturated);
-  bool finite = isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z);
-  record->position[0] = position.x, record->position[1] = position.y, record->position[2] = position.z;
-  record->normal = normal;
-  record->flux_rg = r | g << 16;
-  record->flux_b = b;
-  if (HAS(OUTPUT_LAYERS)) record->flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
-  return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u);
-}
-
-// Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
-INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
-                             bool shadow_rays, PhotonState *photon, Photon *record, uint *events) {
-  if (!medium_along(scene, photon->ray, hit, hit.primitive != HIT_NONE, photon->interior)) return false;
-  real before = max_component(photon->flux), distance;
-  if (!medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &photon->flux, &distance))
-    return false;
-  photon->flux *= scene->medium.scattering;
-  photon->ray.origin += distance * photon->ray.direction;
-  *events = 0;
-  if (!(shadow_rays && depth == 0))
-    *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->history,
-                            random_at(stream, depth, DIM_QUANTISE), record);
-  real4 random = random_at(stream, depth, DIM_BSDF);
-  real survival = fmin(max_component(photon->flux) / before, (real)1);
-  if (depth + 1 == params->max_depth || random.w >= survival) return true;
-  photon->flux /= survival;
-  photon->ray.direction = phase_sample(scene->medium.g, photon->ray.direction, random.xy);
-  photon->history = history_after(photon->history, false);
-  photon->mark = INDIRECT_PHOTON;
-  if (max_component(photon->flux) > 0) *events |= EVENT_ALIVE;
-  return true;
-}
-
-// Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
-// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
-INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
-                         PhotonState *photon, Photon *record) {
-  bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
-  uint events = 0;
-  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
-    return events;
-  if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
-  real3 direction = photon->ray.direction;
-  Surface surface;
-  geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
-  global const Material *material = scene->materials + surface.material;
-  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-  if (HAS(EFFECT_TEXTURES) && !isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z)) {
-    events |= EVENT_NON_FINITE;
-    bsdf.color = (real3)(0, 0, 0);
-  }
-  if (HAS(EFFECT_DISPERSION))
-    disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &photon->flux);
-  real3 flux = photon->flux, n = facing_normal(&surface, direction);
-  real4 random = random_at(stream, depth, DIM_BSDF);
-  real before = max_component(flux);
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-    photon->interior = interior_before(photon->interior, material, &surface, direction);
-    flux *= interior_transmittance(photon->interior, hit.t);
-  }
-
-  bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
-  bool black = is_black(&bsdf, material);
-  real arrival = shading_normal_arrival(&surface, direction);
-  real3 arrived = scaled3(arrival, flux);
-  // With shadow rays the light that arrives straight from an emitter is counted there.
-  bool counted = shadow_rays && depth == 0, landed_here = keeps_photons(&bsdf, material);
-  if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
-  if (landed_here) {
-    real3 landed = arrived;
-    if (plastic) landed *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
-    real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
-    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
-                                photon->history, random_at(stream, depth, DIM_QUANTISE), record);
-    events |= counted ? EVENT_LANDED : stored;
-  }
-  bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
-  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
-
-  if (plastic) plastic_choose(&bsdf, direction, n, random.z);
-  photon->history = history_after(photon->history, bsdf_is_specular(&bsdf));
-  photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
-  BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
-                               : bsdf_sample(&bsdf, &surface, direction, random, false);
-  bool spread = bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf);
-  real departure = shading_normal_departure(&surface, next.direction, n);
-  flux = product3(choose3(spread, arrived, flux), scaled3(spread ? departure : 1, next.weight));
-  // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
-  real survival = fmin(max_component(flux) / before, (real)1);
-  flux = quotient3(flux, survival);
-  alive = alive && random.w < survival && max_component(flux) > 0;
-  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
-    photon->interior = interior_after(photon->interior, material, &surface, next.direction);
-  photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
-  photon->ray.direction = next.direction;
-  photon->flux = flux;
-  return events | (alive ? EVENT_ALIVE : 0u);
-}
 
 // The random numbers of photon i of the wave.
 INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) {

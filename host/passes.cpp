@@ -6,7 +6,7 @@
 namespace causticl {
 namespace {
 
-/// Whether photons that land on the material may be stored: cl/pass_photon.cl.
+/// Whether photons that land on the material may be stored: cl/photon_event.cl.
 bool stores_photons(const MaterialSpec& material) {
   const bool diffuse = material.kind == MaterialSpec::Kind::diffuse || material.alpha_diffuse;
   return material.kind == MaterialSpec::Kind::plastic || (diffuse && material.color_texture >= 0) ||
