@@ -56,6 +56,7 @@ kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint 
 #ifndef TRIANGLES_PRECOMPUTED
 #include "kdtree_packet.cl"
 #include "brute_force.cl"
+#include "kdtree_wave.cl"
 // As one of sixteen rays from the same point: the others go to all sides of it, some of them far.
 OUTLINE MeshHit closest_in_packet(global const MeshRay *in, uint own, MESHES) {
   MeshRange range = ranges[in->mesh];
@@ -87,8 +88,30 @@ OUTLINE MeshHit closest_by_brute_force(global const MeshRay *in, uint own, MESHE
   Hit hit = {t[own], primitive[own], u[own], v[own], cut_short > 0 ? FAULT_TRAVERSAL_BOUND : 0u};
   return mesh_hit(blocks + range.first_block, hit);
 }
-// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, and every second of these, where a mesh
-// has few triangles, against all of them.
+#ifdef KDTREE_WAVES
+// As one of a wave that go anywhere.
+OUTLINE MeshHit closest_in_wave(global const MeshRay *in, uint own, MESHES) {
+  MeshRange range = ranges[in->mesh];
+  Ray ray = mesh_ray(in);
+  float origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
+  uint primitive[WAVE_CAPACITY], faults[WAVE_CAPACITY];
+  for (uint i = 0; i < WAVE_CAPACITY; ++i) {
+    real3 other = (real3)(i & 1u ? -1 : 1, i & 2u ? -2 : 2, i & 4u ? -3 : 3) * (0.05f * (1u + i / 8u));
+    real3 d = i == own ? ray.direction : ray.direction.yzx + other;
+    origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
+    direction[0][i] = d.x, direction[1][i] = d.y, direction[2][i] = d.z;
+    t[i] = in->t_max, u[i] = v[i] = 0, primitive[i] = HIT_NONE;
+  }
+  RayArrays rays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
+  kdtree_wave(nodes + range.first_node, blocks + range.first_block, 0, 0, &rays, WAVE_CAPACITY, faults);
+  Hit hit = {t[own], primitive[own], u[own], v[own], faults[own]};
+  return mesh_hit(blocks + range.first_block, hit);
+}
+#else
+#define closest_in_wave(in, own, ranges, nodes, blocks, list) tree_closest(in, ranges, nodes, blocks, list)
+#endif
+// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a wave where the
+// device has such, and every second, where a mesh has few triangles, against all of them.
 kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0), own = i / PACKET_RAYS % PACKET_RAYS;
   if (i >= count) return;
@@ -96,6 +119,8 @@ kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint 
     hits[i] = tree_closest(rays + i, ranges, nodes, blocks, list);
   else if (i % (2u * PACKET_RAYS) == 0 && 8u * ranges[rays[i].mesh].listed <= BRUTE_FORCE_PRIMITIVES)
     hits[i] = closest_by_brute_force(rays + i, own, ranges, nodes, blocks, list);
+  else if (i % (4u * PACKET_RAYS) == PACKET_RAYS)
+    hits[i] = closest_in_wave(rays + i, i / (4u * PACKET_RAYS) % WAVE_CAPACITY, ranges, nodes, blocks, list);
   else
     hits[i] = closest_in_packet(rays + i, own, ranges, nodes, blocks, list);
 }
