@@ -5,8 +5,8 @@
 // The hits are those of kdtree_closest() to the bit. A ray that meets two primitives at the same distance is traced again
 // on its own, since then the order in which it comes to them decides.
 //
-// For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most. Arrays of rays
-// hold whole packets.
+// For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most. Arrays of
+// rays hold whole packets.
 #include "kdtree.cl"
 #include "triangle_packet.cl"
 
@@ -147,10 +147,8 @@ INLINE uint brute_force_closest(global const KdNode *nodes, global const Triangl
     packet_store(&hits, member, rays->t + first, rays->u + first, rays->v + first, rays->primitive + first);
     for (uint again = hits.again; again != 0; again &= again - 1u) {
       uint i = first + lowest_bit(again);
-      Ray ray = {(float3)(rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]),
-                 (float3)(rays->direction[0][i], rays->direction[1][i], rays->direction[2][i])};
       Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], 0};
-      kdtree_closest(nodes, blocks, shapes, curves, ray, &hit);
+      kdtree_closest(nodes, blocks, shapes, curves, arrays_ray(rays, i), &hit);
       cut_short += (hit.faults & FAULT_TRAVERSAL_BOUND) ? 1u : 0u;
       rays->t[i] = hit.t, rays->u[i] = hit.u, rays->v[i] = hit.v, rays->primitive[i] = hit.primitive;
     }

@@ -3,14 +3,15 @@
 // A ray alone mostly waits: each step for the last one, and for memory; and where steps differ from ray to ray no
 // processor foresees its branches. Here all rays of a wave take a step of one kind before any takes the next: tests of
 // nodes, then of the triangles in leaves, then the ways back. These steps have hardly a branch: what a ray does next it
-// is told by lists, to whose ends every ray is written and where only those stay that are counted. So the steps of several
-// rays overlap in the processor, and what the next ones read is fetched ahead. Every ray takes the steps that it takes in
-// kdtree_closest(), to the same hits to the bit. Shadow rays, most of which meet nothing on a way that they share, are
-// faster alone.
+// is told by lists, to whose ends every ray is written and where only those stay that are counted. So the steps of
+// several rays overlap in the processor, and what the next ones read is fetched ahead. Every ray visits what it visits
+// in kdtree_closest(), to the same hits to the bit; KD_STEP_LIMIT counts the steps of the wave. Shadow rays, most of
+// which meet nothing on a way that they share, are faster alone.
 //
 // On devices that run the items of a work-group in turn; for float and the watertight test.
 #include "kdtree.cl"
 #include "vector.cl"
+#include "wave_size.cl"
 
 #if WAVE_CAPACITY > 1u && !defined(CAUSTICL_DOUBLE) && !defined(TRIANGLES_PRECOMPUTED)
 #define KDTREE_WAVES
@@ -27,20 +28,14 @@ typedef struct {
   float origin[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];  // of ray and hit
   uint primitive[WAVE_CAPACITY], faults[WAVE_CAPACITY];
   uint node[WAVE_CAPACITY], slot[WAVE_CAPACITY];  // where it is, and the child that it is at or has just left
-  uint again[WAVE_CAPACITY];                      // 1 where the node is to be tested for children after `slot` alone
-  uint more[WAVE_CAPACITY];                     // as in kdtree_closest(), like the trail
+  uint again[WAVE_CAPACITY];  // 1 where the node is to be tested for children after `slot` alone
+  uint more[WAVE_CAPACITY];   // as in kdtree_closest(), like the trail
   ulong trail[WAVE_CAPACITY];
 } WaveWalk;
 
-// The first where `use_first` is 1, the second where it is 0. By arithmetic, as all choices below: of others the compiler
-// makes branches.
+// The first where `use_first` is 1, the second where it is 0. By arithmetic, as all choices below: of others the
+// compiler makes branches.
 INLINE uint chosen(uint use_first, uint first, uint second) { return second ^ ((second ^ first) & -use_first); }
-
-INLINE Ray arrays_ray(const RayArrays *rays, uint i) {
-  Ray ray = {(float3)(rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]),
-             (float3)(rays->direction[0][i], rays->direction[1][i], rays->direction[2][i])};
-  return ray;
-}
 
 INLINE void walk_axis(WaveWalk *walk, uint k, uint i, float origin, SlabAxis s) {
   walk->origin[k][i] = origin;
@@ -138,10 +133,10 @@ INLINE void walk_node(global const KdNode *nodes, WaveWalk *walk, uint i, uint *
 INLINE uint walk_block(global const TriangleBlock *blocks, uint index, WaveWalk *walk, uint i) {
   TriangleRay ray = walk_triangle(walk, i);
   float t_max = walk->t[i];
-  BlockEdges edges;
-  block_edges(blocks + index, ray, &edges);
+  BlockCorners corners;
+  block_corners(blocks + index, ray, &corners);
   float8 distance, weight_1, weight_2;
-  int8 met = edges_meet(&edges, ray.scale_z, t_max, &distance, &weight_1, &weight_2);
+  int8 met = block_meets(&corners, ray.scale_z, t_max, &distance, &weight_1, &weight_2);
   float8 t = met ? distance : (float8)INFINITY;
   float nearest = min_lane(t), weights[16];
   uint found = nearest < t_max, lane = lowest_bit(lane_bits(t == nearest));
@@ -166,9 +161,9 @@ INLINE uint walk_triangles(global const KdNode *nodes, global const TriangleBloc
 INLINE uint walk_shapes(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                         global const float *curves, const RayArrays *rays, WaveWalk *walk, uint i) {
   Hit hit = {walk->t[i], walk->primitive[i], walk->u[i], walk->v[i], walk->faults[i]};
-  bool found = leaf_closest(blocks, shapes, curves, walk_child(nodes, walk, i),
-                            nodes[walk->node[i]].block_count[walk->slot[i]], arrays_ray(rays, i), walk_triangle(walk, i),
-                            walk_slab(walk, i), &hit);
+  uint count = nodes[walk->node[i]].block_count[walk->slot[i]];
+  bool found = leaf_closest(blocks, shapes, curves, walk_child(nodes, walk, i), count, arrays_ray(rays, i),
+                            walk_triangle(walk, i), walk_slab(walk, i), &hit);
   walk->t[i] = hit.t, walk->primitive[i] = hit.primitive, walk->u[i] = hit.u, walk->v[i] = hit.v;
   walk->faults[i] = hit.faults;
   return found ? 1u : 0u;
@@ -195,21 +190,8 @@ INLINE void walk_back(global const KdNode *nodes, WaveWalk *walk, uint i, uint *
   walk_to(walk, i, index, slot, child, *inner & ~again, trail, more);
 }
 
-INLINE void fetch_node(global const KdNode *node) {
-  size_t address = (size_t)node;
-  __builtin_prefetch((const void *)address);
-  __builtin_prefetch((const void *)(address + 64));
-  __builtin_prefetch((const void *)(address + 128));
-  __builtin_prefetch((const void *)(address + 192));
-}
-
-INLINE void fetch_block(global const TriangleBlock *block) {
-  fetch_node((global const KdNode *)block);
-  __builtin_prefetch((const void *)((size_t)block + 256));
-}
-
-// The nearest hits before rays->t of `count` rays, WAVE_CAPACITY at most. Reads them up to wave_padded(count). Writes their
-// FAULT_* bits to `faults`.
+// The nearest hits before rays->t of `count` rays, WAVE_CAPACITY at most. Reads them up to wave_padded(count). Writes
+// their FAULT_* bits to `faults`.
 OUTLINE void kdtree_wave(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                          global const float *curves, const RayArrays *arrays, uint count, uint *faults) {
   const RayArrays rays = *arrays;
@@ -226,19 +208,23 @@ OUTLINE void kdtree_wave(global const KdNode *nodes, global const TriangleBlock 
     for (uint k = 0; k < node_count; ++k) {
       uint i = at_node[k];
       walk_node(nodes, &walk, i, &inner, &leaf);
-      fetch_node(nodes + walk.node[i]);
+      fetch_ahead((size_t)(nodes + walk.node[i]));
       at_node[still] = i, still += inner;
       at_leaf[leaf_count] = i, leaf_count += leaf;
       back[back_count] = i, back_count += (1u - inner - leaf) & (walk.trail[i] != 0);
     }
     node_count = still;
-    for (uint k = 0; k < leaf_count; ++k) fetch_block(blocks + (walk_child(nodes, &walk, at_leaf[k]) & KD_INDEX));
+    for (uint k = 0; k < leaf_count; ++k) {
+      size_t block = (size_t)(blocks + (walk_child(nodes, &walk, at_leaf[k]) & KD_INDEX));
+      fetch_ahead(block);
+      fetch_ahead(block + sizeof(TriangleBlock) - 256u);
+    }
     for (uint k = 0; k < leaf_count; ++k) {
       uint i = at_leaf[k], found;
       if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (walk_child(nodes, &walk, i) & KD_SHAPES))
         found = walk_shapes(nodes, blocks, shapes, curves, &rays, &walk, i);
       else
-        found = walk_triangles(nodes, blocks, &walk, i);
+        found = HAS(EFFECT_TRIANGLES) ? walk_triangles(nodes, blocks, &walk, i) : 0;
       hits[hit_count] = i, hit_count += found;
       back[back_count] = i, back_count += ~found & (walk.trail[i] != 0);
     }
@@ -251,7 +237,7 @@ OUTLINE void kdtree_wave(global const KdNode *nodes, global const TriangleBlock 
     for (uint k = 0; k < back_count; ++k) {
       uint i = back[k];
       walk_back(nodes, &walk, i, &inner, &leaf);
-      fetch_node(nodes + walk.node[i]);
+      fetch_ahead((size_t)(nodes + walk.node[i]));
       at_node[node_count] = i, node_count += inner;
       at_leaf[leaf_count] = i, leaf_count += leaf;
     }

@@ -7,6 +7,9 @@
 #ifdef WAVE_BRUTE_FORCE
 #include "brute_force.cl"
 #endif
+#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
+#define WAVE_SIDE_BY_SIDE  // all rays of a wave at once
+#endif
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
@@ -62,7 +65,7 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
-#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
+#ifdef WAVE_SIDE_BY_SIDE
     planes_closest(g, wave_ray(wave, i), &hit);
 #else
     geometry_closest(g, wave_ray(wave, i), &hit);
@@ -70,7 +73,7 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
 #endif
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
-#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
+#ifdef WAVE_SIDE_BY_SIDE
   RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
                     {wave->direction[0], wave->direction[1], wave->direction[2]},
                     wave->t, wave->u, wave->v, wave->primitive};
@@ -78,7 +81,8 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
 #if defined(WAVE_BRUTE_FORCE)
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
-#elif defined(KDTREE_WAVES)
+#elif defined(WAVE_SIDE_BY_SIDE)
+  if (!HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER)) return;
   uint faults[WAVE_CAPACITY];
   kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, faults);
   for (uint i = 0; i < count; ++i) count_faults(faults[i], counters);
@@ -146,7 +150,8 @@ OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, ui
   }
 }
 
-// Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are then.
+// Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are
+// then.
 OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
   uint alive = first;
   for (uint i = first; i < end; ++i) {
@@ -156,8 +161,8 @@ OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
   return alive;
 }
 
-// Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that have
-// ended. Returns the number of rays.
+// Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that
+// have ended. Returns the number of rays.
 OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
                         uint end, global Photon *photons, volatile global Counters *counters) {
   Wave wave;
@@ -188,7 +193,8 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
 }
 
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
-// the host can enlarge it and trace the pass again. One item of a work-group traces the photons of all. What follows
+// the host can enlarge it and trace the pass again. Where photons go in waves, one item of a work-group traces
+// PHOTONS_AN_ITEM for each item of that, if any are left for the group. What follows
 // `params` is asked for by guided photons, and at the end by aimed ones.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
@@ -196,12 +202,12 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   uint first = get_global_id(0), count = 1;
   if (WAVE_CAPACITY > 1u) {
     if (get_local_id(0) != 0 || params.photon_count == 0) return;
-    // Few groups with many photons each, spread over all: threads take runs of neighbouring groups.
+    // Few groups have something to do, spread evenly over all: threads take runs of neighbouring groups.
     count = (uint)get_local_size(0) * PHOTONS_AN_ITEM;
-    uint group = get_group_id(0), busy = (params.photon_count + count - 1u) / count;
-    uint spread = max((uint)get_num_groups(0) / busy, 1u);
-    if (group % spread != 0) return;
-    first = group / spread * count;
+    ulong busy = (params.photon_count + count - 1u) / count, group = get_group_id(0), groups = get_num_groups(0);
+    uint before = (uint)(group * busy / groups);
+    if ((group + 1) * busy / groups == before) return;
+    first = before * count;
   }
   if (first >= params.photon_count) return;
   SCENE_INIT(params);

@@ -24,6 +24,12 @@ typedef struct {
   uint *primitive;
 } RayArrays;
 
+INLINE Ray arrays_ray(const RayArrays *rays, uint i) {
+  Ray ray = {(real3)(rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]),
+             (real3)(rays->direction[0][i], rays->direction[1][i], rays->direction[2][i])};
+  return ray;
+}
+
 #define HIT_NONE 0xffffffffu
 #define HIT_SHAPE 0x80000000u
 

@@ -21,7 +21,9 @@ INLINE TriangleRay triangle_ray(Ray ray) {
   real x = along_x ? d.y : (along_y ? d.z : d.x), y = along_x ? d.z : (along_y ? d.x : d.y);
   real z = along_x ? d.x : (along_y ? d.y : d.z);
   TriangleRay s;
-  s.x = along_x ? 8 : (along_y ? 16 : 0), s.y = along_x ? 16 : (along_y ? 0 : 8), s.z = along_x ? 0 : (along_y ? 8 : 16);
+  s.x = along_x ? 8 : (along_y ? 16 : 0);
+  s.y = along_x ? 16 : (along_y ? 0 : 8);
+  s.z = along_x ? 0 : (along_y ? 8 : 16);
   s.origin_x = along_x ? o.y : (along_y ? o.z : o.x);
   s.origin_y = along_x ? o.z : (along_y ? o.x : o.y);
   s.origin_z = along_x ? o.x : (along_y ? o.y : o.z);
@@ -39,28 +41,28 @@ INLINE real8 signed_difference(real8 a, real8 b, real8 c, real8 d) {
   return (p - q) + (fma(a, b, -p) - fma(c, d, -q));
 }
 
-// The vertices of a block's triangles, moved and sheared.
+// The corners of a block's triangles, moved to the ray's origin and sheared.
 typedef struct {
   real8 ax, ay, az, bx, by, bz, cx, cy, cz;
-} BlockEdges;
+} BlockCorners;
 
-// False if the ray misses all triangles of the block.
-INLINE bool block_edges(global const TriangleBlock *block, TriangleRay ray, BlockEdges *e) {
-  e->az = block_row(block, 0, ray.z) - ray.origin_z;
-  e->bz = block_row(block, 1, ray.z) - ray.origin_z;
-  e->cz = block_row(block, 2, ray.z) - ray.origin_z;
-  e->ax = fma(-ray.shear_x, e->az, block_row(block, 0, ray.x) - ray.origin_x);
-  e->ay = fma(-ray.shear_y, e->az, block_row(block, 0, ray.y) - ray.origin_y);
-  e->bx = fma(-ray.shear_x, e->bz, block_row(block, 1, ray.x) - ray.origin_x);
-  e->by = fma(-ray.shear_y, e->bz, block_row(block, 1, ray.y) - ray.origin_y);
-  e->cx = fma(-ray.shear_x, e->cz, block_row(block, 2, ray.x) - ray.origin_x);
-  e->cy = fma(-ray.shear_y, e->cz, block_row(block, 2, ray.y) - ray.origin_y);
+// Finds the corners. False if the ray misses all triangles of the block.
+INLINE bool block_corners(global const TriangleBlock *block, TriangleRay ray, BlockCorners *c) {
+  c->az = block_row(block, 0, ray.z) - ray.origin_z;
+  c->bz = block_row(block, 1, ray.z) - ray.origin_z;
+  c->cz = block_row(block, 2, ray.z) - ray.origin_z;
+  c->ax = fma(-ray.shear_x, c->az, block_row(block, 0, ray.x) - ray.origin_x);
+  c->ay = fma(-ray.shear_y, c->az, block_row(block, 0, ray.y) - ray.origin_y);
+  c->bx = fma(-ray.shear_x, c->bz, block_row(block, 1, ray.x) - ray.origin_x);
+  c->by = fma(-ray.shear_y, c->bz, block_row(block, 1, ray.y) - ray.origin_y);
+  c->cx = fma(-ray.shear_x, c->cz, block_row(block, 2, ray.x) - ray.origin_x);
+  c->cy = fma(-ray.shear_y, c->cz, block_row(block, 2, ray.y) - ray.origin_y);
 
   // Rounding is monotone: the sign of a difference of rounded products is right or it is zero. Zero counts as
   // inside, so these lanes include every triangle that the ray meets.
-  real8 u = e->cx * e->by - e->cy * e->bx;
-  real8 v = e->ax * e->cy - e->ay * e->cx;
-  real8 w = e->bx * e->ay - e->by * e->ax;
+  real8 u = c->cx * c->by - c->cy * c->bx;
+  real8 v = c->ax * c->cy - c->ay * c->cx;
+  real8 w = c->bx * c->ay - c->by * c->ax;
   // Where vertex 2 is NaN, u and v are, and both selections below keep the NaN of the first.
   real8 low = v < u ? v : u, high = v > u ? v : u;
   low = w < low ? w : low;
@@ -68,15 +70,15 @@ INLINE bool block_edges(global const TriangleBlock *block, TriangleRay ray, Bloc
   return any_lane((low >= 0) | (high <= 0));
 }
 
-// The triangles of a block that the ray meets for 0 < t < t_max, by what block_edges() has found, and for these the
-// distances and the weights of vertices 1 and 2.
-INLINE mask8 edges_meet(const BlockEdges *e, real scale_z, real t_max, real8 *t, real8 *weight_1, real8 *weight_2) {
-  real8 u = signed_difference(e->cx, e->by, e->cy, e->bx);
-  real8 v = signed_difference(e->ax, e->cy, e->ay, e->cx);
-  real8 w = signed_difference(e->bx, e->ay, e->by, e->ax);
+// The triangles of a block that the ray meets for 0 < t < t_max, by their corners, and for these the distances and the
+// weights of vertices 1 and 2.
+INLINE mask8 block_meets(const BlockCorners *c, real scale_z, real t_max, real8 *t, real8 *weight_1, real8 *weight_2) {
+  real8 u = signed_difference(c->cx, c->by, c->cy, c->bx);
+  real8 v = signed_difference(c->ax, c->cy, c->ay, c->cx);
+  real8 w = signed_difference(c->bx, c->ay, c->by, c->ax);
   real8 determinant = u + v + w;
   real8 inverse = 1 / determinant;
-  *t = (u * e->az + v * e->bz + w * e->cz) * (scale_z * inverse);
+  *t = (u * c->az + v * c->bz + w * c->cz) * (scale_z * inverse);
   *weight_1 = v * inverse;
   *weight_2 = w * inverse;
   mask8 inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
@@ -87,10 +89,10 @@ INLINE mask8 edges_meet(const BlockEdges *e, real scale_z, real t_max, real8 *t,
 // t <= 0 and t >= t_max), and the weights of vertices 1 and 2. False if it misses all.
 INLINE bool block_intersect(global const TriangleBlock *block, TriangleRay ray, real t_max, real8 *t, real8 *weight_1,
                             real8 *weight_2) {
-  BlockEdges e;
+  BlockCorners corners;
   real8 distance;
-  if (!block_edges(block, ray, &e)) return false;
-  mask8 met = edges_meet(&e, ray.scale_z, t_max, &distance, weight_1, weight_2);
+  if (!block_corners(block, ray, &corners)) return false;
+  mask8 met = block_meets(&corners, ray.scale_z, t_max, &distance, weight_1, weight_2);
   if (!any_lane(met)) return false;
   *t = met ? distance : (real8)INFINITY;
   return true;

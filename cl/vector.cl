@@ -1,7 +1,7 @@
-// Arithmetic of real3 component by component, and which loops are vectorised. Compilers that turn loops over paths into vector code (PoCL's) take
-// scalars alone: a loop that holds an operation on a real3, or merges two of them where branches meet, stays scalar.
-// What a loop over photons, camera rays or ends of camera paths calls is therefore written with these; a real3 that is only made and taken apart
-// costs nothing. Sums go from left to right, as those of dot3().
+// Arithmetic of real3 component by component, and which loops are vectorised. Compilers that turn loops over paths into
+// vector code (PoCL's) take scalars alone: a loop that holds an operation on a real3, or merges two of them where
+// branches meet, stays scalar. What a loop over photons, camera rays or ends of camera paths calls is therefore written
+// with these; a real3 that is only made and taken apart costs nothing. Sums go from left to right, as those of dot3().
 #ifndef CAUSTICL_VECTOR_CL
 #define CAUSTICL_VECTOR_CL
 
@@ -17,19 +17,6 @@
 #else
 #define VECTORISED(looped) 0
 #endif
-
-// Paths of a wave, which go side by side, at most: those of a usual work-group where the device wants loops, as PoCL does;
-// else a work-item's own.
-// What a wave holds should fit into the first cache, where arrays with room for more would also be in each other's way.
-#if defined(POCL_DEVICE_ADDRESS_BITS)
-#define WAVE_CAPACITY 64u
-#else
-#define WAVE_CAPACITY 1u
-#endif
-
-// Whole vectors spare the loops their scalar remainders.
-#define WAVE_STEP (WAVE_CAPACITY < 8u ? WAVE_CAPACITY : 8u)
-INLINE uint wave_padded(uint count) { return (count + WAVE_STEP - 1u) / WAVE_STEP * WAVE_STEP; }
 
 INLINE real3 sum3(real3 a, real3 b) { return (real3)(a.x + b.x, a.y + b.y, a.z + b.z); }
 INLINE real3 difference3(real3 a, real3 b) { return (real3)(a.x - b.x, a.y - b.y, a.z - b.z); }

@@ -3,6 +3,7 @@
 #include "interior.cl"
 #include "layers.cl"
 #include "rng.cl"
+#include "wave_size.cl"
 
 // Photons for each item of a work-group, whose first item traces those of all, and places that must be free before new
 // photons join the wave.

@@ -52,7 +52,7 @@ OUTLINE void wave_closest(const Geometry *g, global const float4 *rays, global f
     Ray ray = load_ray(rays, at);
     origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
     direction[0][i] = ray.direction.x, direction[1][i] = ray.direction.y, direction[2][i] = ray.direction.z;
-    t[i] = rays[2u * at].w;
+    t[i] = rays[2u * at].w, u[i] = v[i] = 0, primitive[i] = HIT_NONE;
   }
   RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
   kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &arrays, count, faults);

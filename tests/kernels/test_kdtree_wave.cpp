@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "kernels/traversal_scene.hpp"
+#include "shape_inputs.hpp"
 
 using namespace causticl;
 
@@ -57,7 +58,7 @@ kernel void single(global const KdNode *nodes, global const TriangleBlock *block
 )";
 
 cl::Program& program() {
-  static cl::Program built = build_test_program(kernels);
+  static cl::Program built = build_test_program(kernels, EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS);
   return built;
 }
 
@@ -147,6 +148,26 @@ TEST_CASE("waves find what single rays find: spheres among triangles") {
   RandomInputs random(40);
   auto [input, shapes] = random_spheres(random, 300, 0.1);
   check_waves(input, shapes, random, 32 * 1024);
+  for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
+  check_waves(input, shapes, random);
+}
+
+TEST_CASE("waves find what single rays find: disks among spheres and triangles") {
+  RandomInputs random(43);
+  auto [input, shapes] = random_spheres(random, 40, 0.2);
+  for (uint i = 40; i < 120; ++i) {
+    const auto to_world = Transform::scale({random.uniform(0.1, 0.4), random.uniform(0.1, 0.4), 1})
+                              .followed_by(Transform::rotate(0, random.uniform(0, 6.28)))
+                              .followed_by(Transform::shift(random_offset(random, 0.9)));
+    shapes.push_back(make_shape(SHAPE_DISK, to_world));
+    TreeShape entry{{}, i};
+    for (int k = 0; k < 3; ++k) {
+      const double half = std::hypot(to_world.rows[k].x, to_world.rows[k].y) * 1.00001;
+      entry.bounds.low[k] = static_cast<float>(to_world.translation[k] - half);
+      entry.bounds.high[k] = static_cast<float>(to_world.translation[k] + half);
+    }
+    input.shapes.push_back(entry);
+  }
   for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
   check_waves(input, shapes, random);
 }

@@ -70,6 +70,8 @@ TEST_CASE(
   RenderOptions options;
   options.triangle_test = TriangleTest::precomputed;
   CHECK(render_by(PhotonRays::brute_force, box, options).statistics.photon_rays == "one by one");
+  const Scene spheres = few_photons("7_sppm_room.json", 16, 12);  // without triangles there is no such test
+  CHECK(render_by(PhotonRays::tree, spheres, options).statistics.photon_rays == through_tree());
   options.triangle_test = TriangleTest::watertight;
   if (test_device().info().fp64) {
     options.precision = Precision::float64;

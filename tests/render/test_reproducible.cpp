@@ -27,12 +27,14 @@ const char* const busy_scene = R"({
      "transform": [{"type": "rotate", "axis": "x", "degree": 90}, {"type": "shift", "x": -2, "y": 3, "z": 0}]}]
 })";
 
-std::vector<float> pixels(Device& device, Integrator integrator, unsigned seed) {
+std::vector<float> pixels(Device& device, Integrator integrator, unsigned seed,
+                          PhotonRays photon_rays = PhotonRays::automatic) {
   Scene scene = scene_from_text(busy_scene);
   scene.renderer.integrator = integrator;
   scene.renderer.passes = scene.renderer.samples = 5;
   RenderOptions options;
   options.seed = seed;
+  options.photon_rays = photon_rays;
   return render_scene(scene, device, options).picture.rgb;
 }
 
@@ -49,6 +51,7 @@ TEST_CASE("images have the same bits for any work-group size, number of threads 
       device.set_local_size(local);
       INFO("work-group size " << local);
       CHECK(pixels(device, integrator, 7) == expected);
+      if (integrator == Integrator::sppm) CHECK(pixels(device, integrator, 7, PhotonRays::tree) == expected);
     }
     Device one_thread(info, 1);
     CHECK(pixels(one_thread, integrator, 7) == expected);

@@ -110,8 +110,8 @@ OUTLINE MeshHit closest_in_wave(global const MeshRay *in, uint own, MESHES) {
 #else
 #define closest_in_wave(in, own, ranges, nodes, blocks, list) tree_closest(in, ranges, nodes, blocks, list)
 #endif
-// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a wave where the
-// device has such, and every second, where a mesh has few triangles, against all of them.
+// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a wave
+// (singly where the device has none), and every second, where a mesh has few triangles, against all of them.
 kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0), own = i / PACKET_RAYS % PACKET_RAYS;
   if (i >= count) return;
