@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "effects.h"
 #include "types.h"
 #include "world.hpp"
 
@@ -23,9 +22,8 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
 
 std::string photon_rays_text(const KernelOptions& options, const Device& device) {
   if (options.brute_force) return "sixteen at a time, each meets every primitive";
-  const bool waves =
-      device.runs_items_in_turn() && options.precision == Precision::float32 &&
-      (options.triangle_test == TriangleTest::watertight || !(options.effects & EFFECT_TRIANGLES));
+  const bool waves = device.runs_items_in_turn() && options.precision == Precision::float32 &&
+                     options.triangle_test == TriangleTest::watertight;
   return waves ? "side by side through the tree" : "one by one";
 }
 

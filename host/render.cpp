@@ -147,7 +147,10 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
 
   const Effects effects = find_effects(scene);
   const unsigned compiled = chosen_effects(effects, options.effects) | (options.layers ? OUTPUT_LAYERS : 0u);
-  const KernelOptions kernels{compiled, options.precision, options.triangle_test, options.kernel_dir,
+  // Without triangles there is no such test, and the tree holds no transforms for it.
+  const TriangleTest triangle_test =
+      (compiled & EFFECT_TRIANGLES) != 0 ? options.triangle_test : TriangleTest::watertight;
+  const KernelOptions kernels{compiled, options.precision, triangle_test, options.kernel_dir,
                               options.dump_kernels};
   auto plan = plan_passes(scene);
   if (!options.skip_passes)

@@ -126,9 +126,7 @@ void upload_into(cl::Buffer& buffer, Device& device, const std::vector<T>& data,
 void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out) {
   const World world = build_world(scene, time);
   KdTree tree = build_kdtree(world.tree, out.threads);
-  // Kernels of scenes without triangles have no such test.
-  if (out.triangle_test == TriangleTest::precomputed && !world.tree.triangles.empty())
-    add_triangle_transforms(tree, out.threads);
+  if (out.triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, out.threads);
   upload_into(out.nodes, device, tree.nodes, "tree nodes");
   upload_into(out.blocks, device, tree.blocks, "triangle blocks");
   upload_into(out.attributes, device, world.attributes, "triangle attributes");

@@ -36,3 +36,32 @@ TEST_CASE("both triangle tests give the same picture but for roundings and leaks
     CHECK(precomputed.statistics.device_bytes > watertight.statistics.device_bytes);
   }
 }
+
+TEST_CASE("the triangle test changes nothing where there is no triangle, whatever is compiled in") {
+  // More shapes in one place than a block holds.
+  std::string balls;
+  for (int i = 0; i < 12; ++i) balls += R"({"type": "sphere", "radius": 0.8, "material": "white"},)";
+  const Scene scene = scene_from_text(R"({
+    "width": 16, "height": 12,
+    "renderer": {"type": "sppm", "photon_sample": 5000, "radius": 0.2, "rounds": 2},
+    "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "fov": 45},
+    "materials": {"white": {"type": "diffuse", "color": [0.8, 0.8, 0.8]},
+      "glass": {"type": "glass", "ior": 1.5},
+      "lamp": {"type": "diffuse", "color": [0, 0, 0], "emission": [9, 9, 9]}},
+    "objects": [)" + balls + R"(
+      {"type": "sphere", "radius": 0.79, "material": "glass", "transform": [{"type": "shift", "x": 0.1, "y": 0, "z": 0}]},
+      {"type": "sphere", "radius": 0.3, "material": "lamp", "transform": [{"type": "shift", "x": 1, "y": 2, "z": 1}]}]
+  })");
+  const auto rendered = [&](TriangleTest triangle_test, const char* effects) {
+    RenderOptions options;
+    options.triangle_test = triangle_test;
+    options.effects = effects;
+    options.photon_rays = PhotonRays::tree;
+    return render_scene(scene, test_device(), options).picture.rgb;
+  };
+  const auto expected = rendered(TriangleTest::watertight, "auto");
+  CHECK(*std::max_element(expected.begin(), expected.end()) > 0);
+  CHECK(rendered(TriangleTest::precomputed, "auto") == expected);
+  // Only CPUs round alike in programs for more effects.
+  if (test_device().runs_items_in_turn()) CHECK(rendered(TriangleTest::precomputed, "all") == expected);
+}
