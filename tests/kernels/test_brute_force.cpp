@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "kernels/traversal_scene.hpp"
-#include "shape_inputs.hpp"
 
 using namespace causticl;
 
@@ -111,12 +110,7 @@ TEST_CASE(
   TriangleMesh boxes;
   for (int i = 0; i < 3; ++i) add(boxes, box_mesh({0.5 * i, 0, 0}, {0.5 * i + 0.5, 0.5, 0.5}));
   check_packets({boxes, {}}, {}, random);
-  TriangleMesh duplicates;
-  for (int i = 0; i < 10; ++i) {
-    duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
-    duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
-  }
-  check_packets({duplicates, {}}, {}, random);
+  check_packets({duplicate_triangles(10), {}}, {}, random);
   TriangleMesh needles;
   for (int i = 0; i < 20; ++i)
     needles.push_back(make_triangle({0.05 * i, 0, 0}, {0.05 * i + 1e-5, 0, 1}, {0.05 * i, 1, 0.5}));
@@ -156,14 +150,7 @@ TEST_CASE(
                               .followed_by(Transform::rotate(0, random.uniform(0, 6.28)))
                               .followed_by(Transform::rotate(1, i % 2 ? random.uniform(0, 6.28) : 0))
                               .followed_by(Transform::shift(random_offset(random, 0.8)));
-    shapes.push_back(make_shape(SHAPE_DISK, to_world));
-    TreeShape entry{{}, i};
-    for (int k = 0; k < 3; ++k) {
-      const double half = std::hypot(to_world.rows[k].x, to_world.rows[k].y) * 1.00001;
-      entry.bounds.low[k] = static_cast<float>(to_world.translation[k] - half);
-      entry.bounds.high[k] = static_cast<float>(to_world.translation[k] + half);
-    }
-    input.shapes.push_back(entry);
+    add_disk(input, shapes, to_world);
   }
   add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
   check_packets(input, shapes, random);
@@ -187,20 +174,13 @@ TEST_CASE("a ray that is not finite changes nothing for the other fifteen") {
   add(input.triangles, box_mesh({-1, -1, -1}, {1, 1, 1}));
   const Traversal scene(input, shapes);
   const auto rays = hard_rays(scene, random, 8192);
-  auto broken = rays;
-  std::vector<bool> finite(rays.size(), true);
-  for (std::size_t i = 0; i < rays.size(); i += 16) {
-    const auto k = i + static_cast<std::size_t>(random.uniform(0, 16));
-    const int axis = static_cast<int>(random.uniform(0, 3));
-    (random.uniform() < 0.5 ? broken[k].origin : broken[k].direction)[axis] =
-        random.uniform() < 0.5 ? NAN : INFINITY;
-    finite[k] = false;
-  }
+  auto changed = rays;
+  const auto broken = break_rays(changed, 16, random);
   const auto hits = trace(scene, rays, 0).single;
   // Alone, a ray of NaN goes round in the tree up to the limit; here it meets nothing.
-  const auto others = trace(scene, broken, 0).packet;
+  const auto others = trace(scene, changed, 0).packet;
   std::size_t different = 0;
   for (std::size_t i = 0; i < rays.size(); ++i)
-    different += finite[i] && std::memcmp(&hits[i], &others[i], sizeof(TestHit)) != 0;
+    different += !broken[i] && std::memcmp(&hits[i], &others[i], sizeof(TestHit)) != 0;
   CHECK(different == 0);
 }

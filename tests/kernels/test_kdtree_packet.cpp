@@ -65,25 +65,12 @@ TEST_CASE("packets find what single rays find: closed meshes") {
 
 TEST_CASE("packets find what single rays find: coplanar triangles, duplicates, boxes that share faces") {
   for (int axis = 0; axis < 3; ++axis) check_mesh_packets(flat_mesh(axis), 10 + axis);
-  TriangleMesh duplicates;
-  for (int i = 0; i < 300; ++i) {
-    duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
-    duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
-  }
-  check_mesh_packets(duplicates, 20, 1000);
-  TriangleMesh boxes;
-  for (int i = 0; i < 27; ++i) {
-    const Vec3 low{0.25 * (i % 3), 0.25 * (i / 3 % 3), 0.25 * (i / 9)};
-    for (const auto& triangle : box_mesh(low, low + Vec3{0.25, 0.25, 0.25})) boxes.push_back(triangle);
-  }
-  check_mesh_packets(boxes, 21);
+  check_mesh_packets(duplicate_triangles(300), 20, 1000);
+  check_mesh_packets(boxes_that_share_faces(), 21);
 }
 
 TEST_CASE("packets find what single rays find: far from the origin, one triangle, none") {
-  auto far = torus_mesh(40, 20, 100, 30);
-  for (auto& t : far)
-    for (auto& vertex : t.position) vertex[0] += 1e6f;
-  check_mesh_packets(far, 30);
+  check_mesh_packets(far_torus(), 30);
   check_mesh_packets({make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 31, 2000);
   check_mesh_packets({}, 32, 100);
 }
@@ -100,11 +87,7 @@ TEST_CASE("a ray that is not finite changes nothing for the others of its packet
   RandomInputs random(50);
   Traversal scene({torus_knot_mesh(4000), {}}, {});
   auto rays = hard_packets(scene, random, 500);
-  for (std::size_t i = 0; i < rays.size(); i += 16) {
-    auto& ray = rays[i + static_cast<std::size_t>(random.uniform(0, 16))];
-    const int axis = static_cast<int>(random.uniform(0, 3));
-    (random.uniform() < 0.5 ? ray.origin : ray.direction)[axis] = random.uniform() < 0.5 ? NAN : INFINITY;
-  }
+  break_rays(rays, 16, random);
   const auto buffer = Traversal::upload(rays);
   const auto single = scene.closest("closest", buffer, rays.size());
   const auto packet = scene.closest("closest_packets", buffer, rays.size());

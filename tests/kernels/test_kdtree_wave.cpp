@@ -2,7 +2,6 @@
 #include <cstring>
 
 #include "kernels/traversal_scene.hpp"
-#include "shape_inputs.hpp"
 
 using namespace causticl;
 
@@ -121,25 +120,12 @@ TEST_CASE("waves find what single rays find: closed meshes") {
 
 TEST_CASE("waves find what single rays find: coplanar triangles, duplicates, boxes that share faces") {
   for (int axis = 0; axis < 3; ++axis) check_mesh_waves(flat_mesh(axis), 10 + axis, 32 * 1024);
-  TriangleMesh duplicates;
-  for (int i = 0; i < 300; ++i) {
-    duplicates.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
-    duplicates.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
-  }
-  check_mesh_waves(duplicates, 20, 16 * 1024);
-  TriangleMesh boxes;
-  for (int i = 0; i < 27; ++i) {
-    const Vec3 low{0.25 * (i % 3), 0.25 * (i / 3 % 3), 0.25 * (i / 9)};
-    for (const auto& triangle : box_mesh(low, low + Vec3{0.25, 0.25, 0.25})) boxes.push_back(triangle);
-  }
-  check_mesh_waves(boxes, 21);
+  check_mesh_waves(duplicate_triangles(300), 20, 16 * 1024);
+  check_mesh_waves(boxes_that_share_faces(), 21);
 }
 
 TEST_CASE("waves find what single rays find: far from the origin, one triangle, none") {
-  auto far = torus_mesh(40, 20, 100, 30);
-  for (auto& t : far)
-    for (auto& vertex : t.position) vertex[0] += 1e6f;
-  check_mesh_waves(far, 30);
+  check_mesh_waves(far_torus(), 30);
   check_mesh_waves({make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 31, 32 * 1024);
   check_mesh_waves({}, 32, 1000);
 }
@@ -159,14 +145,7 @@ TEST_CASE("waves find what single rays find: disks among spheres and triangles")
     const auto to_world = Transform::scale({random.uniform(0.1, 0.4), random.uniform(0.1, 0.4), 1})
                               .followed_by(Transform::rotate(0, random.uniform(0, 6.28)))
                               .followed_by(Transform::shift(random_offset(random, 0.9)));
-    shapes.push_back(make_shape(SHAPE_DISK, to_world));
-    TreeShape entry{{}, i};
-    for (int k = 0; k < 3; ++k) {
-      const double half = std::hypot(to_world.rows[k].x, to_world.rows[k].y) * 1.00001;
-      entry.bounds.low[k] = static_cast<float>(to_world.translation[k] - half);
-      entry.bounds.high[k] = static_cast<float>(to_world.translation[k] + half);
-    }
-    input.shapes.push_back(entry);
+    add_disk(input, shapes, to_world);
   }
   for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
   check_waves(input, shapes, random);
@@ -188,20 +167,13 @@ TEST_CASE("a ray that is not finite is cut short, and changes nothing for the ot
   RandomInputs random(42);
   const Traversal scene({torus_knot_mesh(4000), {}}, {});
   const auto rays = hard_rays(scene, random, 64 * 64);
-  auto broken = rays;
-  std::vector<bool> finite(rays.size(), true);
-  for (std::size_t i = 0; i < rays.size(); i += 64) {
-    const auto k = i + static_cast<std::size_t>(random.uniform(0, 64));
-    const int axis = static_cast<int>(random.uniform(0, 3));
-    (random.uniform() < 0.5 ? broken[k].origin : broken[k].direction)[axis] =
-        random.uniform() < 0.5 ? NAN : INFINITY;
-    finite[k] = false;
-  }
-  const auto whole = trace(scene, rays), found = trace(scene, broken);
+  auto changed = rays;
+  const auto broken = break_rays(changed, 64, random);
+  const auto whole = trace(scene, rays), found = trace(scene, changed);
   std::size_t different = 0, cut_short = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    different += finite[i] && (std::memcmp(&whole.single[i], &found.wave[i], sizeof(TestHit)) != 0 ||
-                               found.wave_faults[i] != 0);
+    different += !broken[i] && (std::memcmp(&whole.single[i], &found.wave[i], sizeof(TestHit)) != 0 ||
+                                found.wave_faults[i] != 0);
     cut_short += found.wave_faults[i] != 0;
   }
   CHECK(different == 0);

@@ -10,6 +10,7 @@
 #include "kernels/traversal_kernels.hpp"
 #include "mesh_set.hpp"
 #include "meshes.hpp"
+#include "shape_inputs.hpp"
 
 namespace causticl {
 
@@ -184,6 +185,45 @@ inline std::vector<TestRay> hard_rays(const Traversal& scene, RandomInputs& rand
   return rays;
 }
 
+/// The same two triangles, each `count` times.
+inline TriangleMesh duplicate_triangles(int count) {
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    mesh.push_back(make_triangle({0, 0, 0}, {1, 0, 0.1}, {0, 1, 0}));
+    mesh.push_back(make_triangle({1, 1, 0.5}, {1, 0, 0.1}, {0, 1, 0}));
+  }
+  return mesh;
+}
+
+inline TriangleMesh boxes_that_share_faces() {
+  TriangleMesh mesh;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 low{0.25 * (i % 3), 0.25 * (i / 3 % 3), 0.25 * (i / 9)};
+    for (const auto& triangle : box_mesh(low, low + Vec3{0.25, 0.25, 0.25})) mesh.push_back(triangle);
+  }
+  return mesh;
+}
+
+inline TriangleMesh far_torus() {
+  auto mesh = torus_mesh(40, 20, 100, 30);
+  for (auto& t : mesh)
+    for (auto& vertex : t.position) vertex[0] += 1e6f;
+  return mesh;
+}
+
+/// Makes one of every `group` rays have a component that is not finite. Returns which.
+inline std::vector<bool> break_rays(std::vector<TestRay>& rays, std::size_t group, RandomInputs& random) {
+  std::vector<bool> broken(rays.size(), false);
+  for (std::size_t i = 0; i < rays.size(); i += group) {
+    const auto k = i + static_cast<std::size_t>(random.uniform(0, static_cast<double>(group)));
+    const int axis = static_cast<int>(random.uniform(0, 3));
+    (random.uniform() < 0.5 ? rays[k].origin : rays[k].direction)[axis] =
+        random.uniform() < 0.5 ? NAN : INFINITY;
+    broken[k] = true;
+  }
+  return broken;
+}
+
 inline std::pair<TreeInput, std::vector<Shape>> random_spheres(RandomInputs& random, int count,
                                                                double radius) {
   TreeInput input;
@@ -204,6 +244,18 @@ inline std::pair<TreeInput, std::vector<Shape>> random_spheres(RandomInputs& ran
     shapes.push_back(shape);
   }
   return {input, shapes};
+}
+
+/// Adds a unit disk, moved by `to_world`.
+inline void add_disk(TreeInput& input, std::vector<Shape>& shapes, const Transform& to_world) {
+  shapes.push_back(make_shape(SHAPE_DISK, to_world));
+  TreeShape entry{{}, static_cast<uint>(shapes.size() - 1)};
+  for (int k = 0; k < 3; ++k) {
+    const double half = std::hypot(to_world.rows[k].x, to_world.rows[k].y) * 1.00001;
+    entry.bounds.low[k] = static_cast<float>(to_world.translation[k] - half);
+    entry.bounds.high[k] = static_cast<float>(to_world.translation[k] + half);
+  }
+  input.shapes.push_back(entry);
 }
 
 }  // namespace causticl
