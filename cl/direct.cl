@@ -1,5 +1,6 @@
 // Direct light by one shadow ray, and how it shares the light with rays that meet an emitter by BSDF sampling.
 #include "light.cl"
+#include "path_media.cl"
 
 // The power heuristic for two densities (Veach 1997, 9.2), as a ratio, since the square of a small far light's
 // density overflows.
@@ -19,14 +20,36 @@ INLINE bool shadowed(const Scene *scene, Ray shadow, real distance, uint *rays, 
 }
 
 // What glass or the medium leaves of a light's radiance along the shadow ray from `surface`: `interior` is that of the
-// segment by which the path came.
+// segment by which the path came, or with nested dielectrics that of the shadow ray.
 INLINE void attenuate_light(const Scene *scene, Interior interior, const Surface *surface, LightSample *light) {
   if (!HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) return;
-  interior = interior_after(interior, scene->materials + surface->material, surface, light->direction);
+  if (!nested(scene))
+    interior = interior_after(interior, scene->materials + surface->material, surface, light->direction);
   if (HAS(EFFECT_MEDIUM) && !interior.glass)
     light->weight *= transmittance(scene->medium.extinction, light->distance);
   else
     light->weight *= interior_transmittance(interior, light->distance);
+}
+
+// Whether the light that lies at the end of a shadow ray from `origin`, which runs in a dielectric, lies behind a face of
+// that in contact: then no light comes straight.
+INLINE bool light_covered(const Scene *scene, Interior interior, real3 origin, const LightSample *light) {
+  if (!nested(scene) || !(scene->nested & NESTED_EMITTERS) || !interior.glass) return false;
+  if (!(light->distance < INFINITY) || !(max_component(light->weight) > 0)) return false;
+  real3 d = light->direction, place = along3(origin, light->distance, d);
+  Ray ray = {along3(origin, light->distance - light->margin, d), d};
+  HitFilter filter = {scene->materials, false};
+  HitList list;
+  geometry_hits(&scene->geometry, ray, 2 * light->margin, &filter, &list);
+  for (uint i = 0; i < list.count; ++i) {
+    Surface surface;
+    geometry_surface(&scene->geometry, ray, list.hit[i], &surface);
+    real3 n = surface.geometric_normal;
+    real error = surface.error + (real)GAMMA(8) * max_component(abs3(place));
+    bool in_contact = list.hit[i].t < light->margin || fabs(dot3(n, difference3(surface.position, place))) <= error_along(error, n);
+    if (in_contact && dot3(n, d) > 0 && is_dielectric(scene, &surface)) return true;
+  }
+  return false;
 }
 
 // A light sample for a point with a rough lobe. Glass is lit from both sides: where the direction from one side's
@@ -43,9 +66,10 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
   return light;
 }
 
-// Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling.
+// Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling. `behind` is the interior
+// beyond the surface, of use with nested dielectrics alone.
 static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                                real3 arriving, real3 n, real3 throughput, real4 random, uint *rays,
+                                Interior behind, real3 arriving, real3 n, real3 throughput, real4 random, uint *rays,
                                 volatile global Counters *counters) {
   real3 g = surface->geometric_normal, origin;
   LightSample light = light_sample_rough(scene, bsdf, surface, dot3(arriving, g) < 0 ? g : -g, random, &origin);
@@ -53,6 +77,8 @@ static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surf
   BsdfSample lobe = rough_evaluate(bsdf, surface, arriving, n, light.direction);
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
+  if (nested(scene) && dot3(arriving, g) * dot3(light.direction, g) > 0) interior = behind;
+  if (light_covered(scene, interior, origin, &light)) return (real3)(0, 0, 0);
   if (shadowed(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   return throughput * lobe.weight * light.weight * (lobe.pdf * power_weight(light.pdf, lobe.pdf));
@@ -80,6 +106,7 @@ INLINE UnshadowedLight unshadowed_light(const Scene *scene, uint chosen, const B
   real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
   bool same_side = dot3(light.direction, g) * dot3(arriving, g) < 0;
+  if (HAS(EFFECT_NESTED) && light_covered(scene, interior, origin, &light)) light.weight = (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);

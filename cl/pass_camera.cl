@@ -53,11 +53,13 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
   real3 segment = (real3)(0, 0, 0);  // of a visible point in the medium
   Interior interior = interior_none();
+  Boundary boundary;
+  boundary_at_camera(scene, &boundary, ray, &interior, counters);
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
     bool met = FIRST_HITS_FOUND && depth == 0 ? first_hit(first, &hit)
-                                              : geometry_closest(&scene->geometry, ray, &hit);
+                                              : media_closest(scene, &boundary.media, ray, &hit);
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance, begin, length;
@@ -92,9 +94,10 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 #endif
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
+    boundary_arrive(scene, &boundary, ray, &hit, &surface, &interior, counters);
     global const Material *material = scene->materials + surface.material;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-      interior = interior_before(interior, material, &surface, ray.direction);
+      if (!nested(scene)) interior = interior_before(interior, material, &surface, ray.direction);
       throughput *= interior_transmittance(interior, hit.t);
     }
     real3 emission = emission_at(material, &surface, ray.direction);
@@ -105,12 +108,12 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    if (HAS(EFFECT_DISPERSION))
-      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+                  &throughput);
     real4 random = path_random_at(&sampler, depth, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
-      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
-                           params->max_depth, counted, &radiance, &rays, counters);
+      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, history, stream,
+                           depth, params->max_depth, counted, &radiance, &rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (!RECEIVERS_SIDE_BY_SIDE && bsdf.kind == MATERIAL_DIFFUSE) {
@@ -124,7 +127,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
         point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
                                        path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
       history = history_after(history, false);
-      if (shadow_rays)
+      if (shadow_rays && !media_covered(scene, &boundary.media))
         radiance_add(&radiance, history,
                      direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
                                   path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
@@ -136,10 +139,10 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     history = history_after(history, bsdf_is_specular(&bsdf));
     bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
     bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf);
-    if (weigh_lights) {
+    if (weigh_lights && !media_covered(scene, &boundary.media)) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
-                   direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
+                   direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
                                       path_random_at(&sampler, depth, DIM_LIGHT), &rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
@@ -147,7 +150,8 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     throughput *= next.weight;
     if (!path_survives(&throughput, depth, random.w)) break;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
-    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
+    if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);
     ray.direction = next.direction;
   }
   vstore3(radiance.sum, 0, point.radiance);

@@ -34,11 +34,13 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
   bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
   Interior interior = interior_none();
+  Boundary boundary;
+  boundary_at_camera(scene, &boundary, ray, &interior, counters);
   for (uint depth = 0; depth <= max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++*rays;
     bool met = FIRST_HITS_FOUND && depth == 0 ? first_hit(first, &hit)
-                                              : geometry_closest(&scene->geometry, ray, &hit);
+                                              : media_closest(scene, &boundary.media, ray, &hit);
     count_faults(hit.faults, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
       real distance;
@@ -67,9 +69,10 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     }
     Surface surface;
     geometry_surface(&scene->geometry, ray, hit, &surface);
+    boundary_arrive(scene, &boundary, ray, &hit, &surface, &interior, counters);
     global const Material *material = scene->materials + surface.material;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-      interior = interior_before(interior, material, &surface, ray.direction);
+      if (!nested(scene)) interior = interior_before(interior, material, &surface, ray.direction);
       throughput *= interior_transmittance(interior, hit.t);
     }
 
@@ -83,26 +86,27 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    if (HAS(EFFECT_DISPERSION))
-      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &throughput);
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+                  &throughput);
     real4 random = path_random_at(sampler, depth, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
-      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, history, stream, depth,
-                           max_depth, counted, &radiance, rays, counters);
+      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, history, stream,
+                           depth, max_depth, counted, &radiance, rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     counted = counted && bsdf_is_specular(&bsdf);
     history = history_after(history, bsdf_is_specular(&bsdf));
-    if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0) {
+    bool covered = media_covered(scene, &boundary.media);
+    if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0 && !covered) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
                    direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,
                                 path_random_at(sampler, depth, DIM_LIGHT), true, rays, counters));
     }
-    if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0) {
+    if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0 && !covered) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
-                   direct_light_rough(scene, &bsdf, &surface, interior, ray.direction, n, throughput,
+                   direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
                                       path_random_at(sampler, depth, DIM_LIGHT), rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
@@ -110,7 +114,8 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const FirstHit *f
     if (!path_survives(&throughput, depth, random.w)) break;
     bsdf_pdf = next.pdf;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
-    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
+    if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);
     ray.direction = next.direction;
   }
   *result = radiance;

@@ -23,7 +23,7 @@ INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) 
 
 // Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the wave.
 OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
-                       uint alive, uint count, Wave *wave) {
+                       uint alive, uint count, Wave *wave, volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
   global const AimCell *cells = aims->cells;
@@ -54,7 +54,15 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
     Ray ray = photon_emit_from(&scene, emitter, stream, u, v, &flux);
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
-    PhotonState photon = {ray, flux, HISTORY_STRAIGHT, 0, interior_none()};
+    PhotonState photon;
+    photon.ray = ray, photon.flux = flux;
+    photon.history = HISTORY_STRAIGHT, photon.mark = 0, photon.interior = interior_none();
+    if (HAS(EFFECT_NESTED)) {
+      uint faults = 0;
+      photon.media = media_at_emitter(&scene, emitter, ray, &faults);
+      if (nested(&scene)) photon.interior = interior_of_stack(&scene, &photon.media.stack);
+      count_faults(faults, counters);
+    }
     wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
     wave_put(wave, i, &photon);
   }
@@ -89,8 +97,19 @@ OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile glo
 #endif
 }
 
+// Puts what photons in a gap of no width meet next in the place of what their rays have met.
+OUTLINE void wave_contacts(const Scene *scene, uint count, Wave *wave) {
+  for (uint i = 0; i < count; ++i) {
+    if (!nested(scene) || wave->media[i].contact == CONTACT_NONE) continue;
+    Hit hit = hit_none(INFINITY);
+    media_closest(scene, wave->media + i, wave_ray(wave, i), &hit);
+    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+  }
+}
+
 // Takes each photon past its hit.
-OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count, Wave *wave) {
+OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count, Wave *wave,
+                          volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
 #if VECTORISED(LOOPED_EVENTS)
@@ -103,7 +122,9 @@ OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count,
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
       PhotonState photon = wave_get(wave, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
+      uint faults = 0;
+      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record, &faults);
+      if (HAS(EFFECT_NESTED)) count_faults(faults, counters);
       wave_put(wave, i, &photon);
       wave_put_record(wave, i, &record);
     }
@@ -171,15 +192,16 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
   while (first < end || alive > 0) {
     uint room = (WAVE_CAPACITY - alive) / WAVE_STEP * WAVE_STEP, fresh = min(end - first, room);
     if (fresh > 0 && (room >= WAVE_REFILL || alive == 0)) {
-      wave_emit(scene, params, guide, aim, first, alive, wave_padded(fresh), &wave);
+      wave_emit(scene, params, guide, aim, first, alive, wave_padded(fresh), &wave, counters);
       first += fresh;
       alive = wave_compact(alive, alive + fresh, &wave);
     }
     rays += alive;
     wave_trace(scene, alive, &wave, counters);
+    if (HAS(EFFECT_NESTED)) wave_contacts(scene, alive, &wave);
     uint padded = wave_padded(alive);
     for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
-    wave_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave);
+    wave_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave, counters);
     if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_SCOUTS)
       wave_guide(guide, params, alive, &wave, counters);
     if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)

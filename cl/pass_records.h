@@ -52,8 +52,15 @@ typedef struct {
   uint photon_copies;        // of each seed
   uint sobol;                // 1 where the numbers of camera paths are those of sobol.cl, 0 where they are independent
   uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
+  uint nested;               // NESTED_* bits; 0 where no dielectric touches or holds anything
+  float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
+  uint unused;
 } Params;
-CHECK_SIZE(Params, 256);
+CHECK_SIZE(Params, 288);
+
+#define NESTED_ON 1u        // paths keep the dielectrics that they are in: see path_media.cl
+#define NESTED_CAMERA 2u    // the camera may stand in one
+#define NESTED_EMITTERS 4u  // an emitter may lie on the boundary of one
 
 // Items of a work-group, at most: kernels keep a number for each in local memory.
 #define LARGEST_WORK_GROUP 256u
@@ -76,7 +83,10 @@ typedef struct {
   uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
   uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
   uint traversal_bound;  // rays whose walk through the tree was cut short
+  uint media_full;     // paths in more dielectrics than they can keep
+  uint media_left;     // boundaries of dielectrics that a path left without having entered
+  uint unused[2];
 } Counters;
-CHECK_SIZE(Counters, 32);
+CHECK_SIZE(Counters, 48);
 
 #endif

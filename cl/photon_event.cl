@@ -48,9 +48,10 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
 }
 
 // Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
-// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
+// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit. Adds to
+// *faults.
 INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
-                         PhotonState *photon, Photon *record) {
+                         PhotonState *photon, Photon *record, uint *faults) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
   if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
@@ -59,19 +60,27 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   real3 direction = photon->ray.direction;
   Surface surface;
   geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
+  Interface interface;
+  if (nested(scene)) {
+    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, faults);
+    photon->interior = interior_of_stack(scene, &interface.before);
+  }
   global const Material *material = scene->materials + surface.material;
   Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
   if (HAS(EFFECT_TEXTURES) && !isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z)) {
     events |= EVENT_NON_FINITE;
     bsdf.color = (real3)(0, 0, 0);
   }
-  if (HAS(EFFECT_DISPERSION))
+  if (nested(scene)) {
+    if (interface.crosses)
+      media_bsdf(scene, &interface, &surface, direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf, &photon->flux);
+  } else if (HAS(EFFECT_DISPERSION))
     disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &photon->flux);
   real3 flux = photon->flux, n = facing_normal(&surface, direction);
   real4 random = random_at(stream, depth, DIM_BSDF);
   real before = max_component(flux);
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-    photon->interior = interior_before(photon->interior, material, &surface, direction);
+    if (!nested(scene)) photon->interior = interior_before(photon->interior, material, &surface, direction);
     flux *= interior_transmittance(photon->interior, hit.t);
   }
 
@@ -108,7 +117,13 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
-  photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+  if (nested(scene)) {
+    photon->ray.origin =
+        media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
+    photon->interior = interior_of_stack(scene, &photon->media.stack);
+  } else {
+    photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+  }
   photon->ray.direction = next.direction;
   photon->flux = flux;
   return events | (alive ? EVENT_ALIVE : 0u);

@@ -16,6 +16,8 @@ typedef struct {
   real3 inverse_wavelength2;  // of each channel, in um^-2
   Medium medium;
   bool emission_met;  // as in Params
+  uint nested;        // as in Params, like the box
+  real3 contact_low, contact_high;
 } Scene;
 
 // Every kernel that traces takes these and begins with SCENE_INIT(params).
@@ -31,7 +33,9 @@ typedef struct {
                          (params).inverse_wavelength2[2]),                                                            \
                  {convert_real3((params).extinction.xyz), convert_real3((params).scattering.xyz),                     \
                   (params).extinction.w},                                                                             \
-                 (params).emission_met != 0}
+                 (params).emission_met != 0, (params).nested,                                                         \
+                 (real3)((params).contact_low[0], (params).contact_low[1], (params).contact_low[2]),                  \
+                 (real3)((params).contact_high[0], (params).contact_high[1], (params).contact_high[2])}
 
 // Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
 INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {

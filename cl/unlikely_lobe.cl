@@ -23,22 +23,24 @@ INLINE bool is_smooth(const Bsdf *bsdf, uint kind) { return bsdf->kind == kind &
 // Adds what lies at the end of the lobe that lobe_number draws at `surface`, and of the likely lobes from there on.
 // `carried` is the path's throughput times the probability of that lobe.
 OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
-                             real3 carried, Interior interior, RandomStream stream, uint depth, uint max_depth,
-                             Radiance *radiance, uint *rays, volatile global Counters *counters) {
+                             real3 carried, Interior interior, const Boundary *at, RandomStream stream, uint depth,
+                             uint max_depth, Radiance *radiance, uint *rays, volatile global Counters *counters) {
   Bsdf bsdf = *lobe;
   Surface surface = *from;
+  Boundary boundary;
+  if (nested(scene)) boundary = *at;
   for (;;) {
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, (real4)(0, 0, lobe_number, 0), true);
     carried *= next.weight;
     if (!(max_component(carried) > 0)) return;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
       interior = interior_after(interior, scene->materials + surface.material, &surface, next.direction);
-    ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+    ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
     ray.direction = next.direction;
     ++depth;
     Hit hit = hit_none(INFINITY);
     ++*rays;
-    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    bool met = media_closest(scene, &boundary.media, ray, &hit);
     count_faults(hit.faults, counters);
     if (!met) {
       if (HAS(EFFECT_ENVIRONMENT))
@@ -46,17 +48,19 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
       return;
     }
     geometry_surface(&scene->geometry, ray, hit, &surface);
+    boundary_arrive(scene, &boundary, ray, &hit, &surface, &interior, counters);
     global const Material *material = scene->materials + surface.material;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-      interior = interior_before(interior, material, &surface, ray.direction);
+      if (!nested(scene)) interior = interior_before(interior, material, &surface, ray.direction);
       carried *= interior_transmittance(interior, hit.t);
     }
     radiance_add(radiance, HISTORY_NO_RECEIVER, carried * emission_at(material, &surface, ray.direction));
     if (depth == max_depth) return;
     bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    if (HAS(EFFECT_DISPERSION))  // which decides whether a lobe is smooth
-      disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &carried);
+    // Which decides whether a lobe is smooth.
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+                  &carried);
     if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
     // What absorbing glass reflects to and fro is not worth following for long.
     real survival = fmin(1000 * max_component(carried), (real)1);
@@ -74,8 +78,8 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
 // `counted` is whether looks have counted the emission that the path has ahead, as it comes to the vertex; returns
 // whether they have as it leaves. After a vertex of plastic that became diffuse it is of no meaning.
 INLINE bool look_aside(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Ray ray, real lobe_number,
-                       real3 throughput, Interior interior, uint history, RandomStream stream, uint depth,
-                       uint max_depth, bool counted, Radiance *radiance, uint *rays, volatile global Counters *counters) {
+                       real3 throughput, Interior interior, const Boundary *boundary, uint history,
+                       RandomStream stream, uint depth, uint max_depth, bool counted, Radiance *radiance, uint *rays, volatile global Counters *counters) {
   bool glass = HAS(EFFECT_GLASS) && is_smooth(bsdf, MATERIAL_GLASS);
   bool plastic = HAS(EFFECT_PLASTIC) && is_smooth(bsdf, MATERIAL_PLASTIC);
   if (!glass && !plastic) return counted && bsdf_is_specular(bsdf);
@@ -95,7 +99,7 @@ INLINE bool look_aside(const Scene *scene, const Bsdf *bsdf, const Surface *surf
     taken = (lobe_number < reflectance) == reflects;
   }
   if (looks && probability > 0)
-    look_along_lobe(scene, &lobe, surface, ray, toward, throughput * probability, interior, stream, depth, max_depth,
-                    radiance, rays, counters);
+    look_along_lobe(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream, depth,
+                    max_depth, radiance, rays, counters);
   return taken ? looks : counted;
 }

@@ -2,6 +2,7 @@
 // are loops over them which PoCL's compiler turns into vector code. See vector.cl for what such a loop may hold.
 #include "interior.cl"
 #include "layers.cl"
+#include "path_media.cl"
 #include "rng.cl"
 #include "wave_size.cl"
 
@@ -14,9 +15,9 @@
 // on the way. Then branches spare work, which selections would do for nothing.
 #define LOOPED_EVENTS                                                                                        \
   (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_CONDUCTOR |        \
-   EFFECT_PLASTIC | EFFECT_ABSORPTION | EFFECT_DISPERSION | EFFECT_MEDIUM)
-#define LOOPED_EMISSION \
-  (EFFECT_BEZIER | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_ABSORPTION | EFFECT_MEDIUM)
+   EFFECT_PLASTIC | EFFECT_ABSORPTION | EFFECT_DISPERSION | EFFECT_MEDIUM | EFFECT_NESTED)
+#define LOOPED_EMISSION                                                                                      \
+  (EFFECT_BEZIER | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_NESTED)
 
 // Whether the rays of a wave meet all primitives in place of walking the tree each: the host asks for it where they are
 // few.
@@ -38,6 +39,7 @@ typedef struct {
   uint history;
   uint mark;  // INDIRECT_PHOTON, or 0
   Interior interior;
+  PathMedia media;  // with EFFECT_NESTED
 } PhotonState;
 
 typedef struct {
@@ -52,6 +54,7 @@ typedef struct {
   uint normal[WAVE_CAPACITY], flux_rg[WAVE_CAPACITY], flux_b[WAVE_CAPACITY];
   uint history[(EFFECTS & OUTPUT_LAYERS) ? WAVE_CAPACITY : 1u];
   Interior interior[(EFFECTS & (EFFECT_ABSORPTION | EFFECT_MEDIUM)) ? WAVE_CAPACITY : 1u];
+  PathMedia media[(EFFECTS & EFFECT_NESTED) ? WAVE_CAPACITY : 1u];
   uint copy[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // as in RandomStream
   uint fresh[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];
   uint seed[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? WAVE_CAPACITY : 1u];  // its place in the list of seeds
@@ -71,6 +74,7 @@ INLINE PhotonState wave_get(const Wave *wave, uint i) {
   photon.mark = wave->mark[i];
   photon.history = HAS(OUTPUT_LAYERS) ? wave->history[i] : HISTORY_STRAIGHT;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) photon.interior = wave->interior[i];
+  if (HAS(EFFECT_NESTED)) photon.media = wave->media[i];
   return photon;
 }
 
@@ -82,6 +86,7 @@ INLINE void wave_put(Wave *wave, uint i, const PhotonState *photon) {
   wave->mark[i] = photon->mark;
   if (HAS(OUTPUT_LAYERS)) wave->history[i] = photon->history;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[i] = photon->interior;
+  if (HAS(EFFECT_NESTED)) wave->media[i] = photon->media;
 }
 
 INLINE void wave_put_record(Wave *wave, uint i, const Photon *record) {
@@ -102,6 +107,7 @@ INLINE void wave_move(Wave *wave, uint from, uint to) {
   wave->mark[to] = wave->mark[from];
   if (HAS(OUTPUT_LAYERS)) wave->history[to] = wave->history[from];
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[to] = wave->interior[from];
+  if (HAS(EFFECT_NESTED)) wave->media[to] = wave->media[from];
   if (!HAS(EFFECT_GUIDED_PHOTONS)) return;
   wave->copy[to] = wave->copy[from];
   wave->fresh[to] = wave->fresh[from];

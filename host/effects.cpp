@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "dielectrics.hpp"
 #include "effects.h"
 #include "error.hpp"
 #include "object_triangles.hpp"
@@ -154,6 +155,7 @@ Effects find_effects(const Scene& scene) {
        aimed_photons_reason(scene)},
       {EFFECT_SMOOTH, "smooth", "shading normals", smooth_reason(scene)},
       {EFFECT_NEEDLES, "needles", "thin triangles", needles_reason(scene)},
+      {EFFECT_NESTED, "nested", "dielectrics that touch or hold something", find_dielectrics(scene).reason},
   };
 }
 

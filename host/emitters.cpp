@@ -102,12 +102,15 @@ std::uint64_t share_numbers(World& world) {
 
 }  // namespace
 
-void finish_emitters(const Scene& scene, World& world) {
+void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world) {
   const bool environment = scene.environment && is_lit(*scene.environment);
   if (environment || !scene.lights.empty()) {
     const float4 sphere = scene_sphere(world.tree);
-    for (const auto& light : scene.lights)
-      if (is_lit(light)) world.emitters.push_back(delta_emitter(light, sphere));
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+      if (!is_lit(scene.lights[i])) continue;
+      world.emitters.push_back(delta_emitter(scene.lights[i], sphere));
+      world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
+    }
     if (environment) world.emitters.push_back(environment_emitter(*scene.environment, sphere));
   }
   const std::uint64_t last = share_numbers(world);

@@ -10,6 +10,7 @@ namespace causticl {
 
 struct Faults {
   std::uint64_t non_finite = 0, saturated = 0, unresolved = 0, traversal_bound = 0, dropped = 0;
+  std::uint64_t media_full = 0, media_left = 0;
 };
 
 struct FaultKind {
@@ -28,6 +29,13 @@ inline constexpr FaultKind fault_kinds[] = {
      "rays met a revolved curve where two roots could not be told apart; one was taken"},
     {"traversal_bound", &Faults::traversal_bound,
      "rays gave up in the tree: the device computes wrongly (run `causticl selftest`)"},
+    {"media_full", &Faults::media_full,
+     "paths were in more than 8 dielectrics at once, or came from among too many: the innermost were left "
+     "out"},
+    {"media_left", &Faults::media_left,
+     "boundaries of dielectrics were left from behind without having been entered: those surfaces are open, "
+     "and "
+     "hold what lies behind them"},
     {"dropped", &Faults::dropped,
      "photons found no room in the device's memory: light is missing; fewer photons a pass (--photons) fit"},
 };

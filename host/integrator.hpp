@@ -88,6 +88,8 @@ class CounterTotals {
     faults.saturated += static_cast<uint>(now.saturated - last_.saturated);
     faults.unresolved += static_cast<uint>(now.unresolved - last_.unresolved);
     faults.traversal_bound += static_cast<uint>(now.traversal_bound - last_.traversal_bound);
+    faults.media_full += static_cast<uint>(now.media_full - last_.media_full);
+    faults.media_left += static_cast<uint>(now.media_left - last_.media_left);
     last_ = now;
   }
   std::uint64_t rays = 0;

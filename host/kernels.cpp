@@ -16,7 +16,7 @@ constexpr unsigned geometry_effects = EFFECT_TRIANGLES | EFFECT_SMOOTH | EFFECT_
                                       EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
 constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH |
                                      EFFECT_CONDUCTOR | EFFECT_PLASTIC | EFFECT_ABSORPTION |
-                                     EFFECT_DISPERSION | EFFECT_MEDIUM;
+                                     EFFECT_DISPERSION | EFFECT_MEDIUM | EFFECT_NESTED;
 constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 
 /// What the kernels of each pass ask for with HAS().

@@ -15,6 +15,9 @@ inline void set_emission(Params& params, const DeviceScene& device_scene) {
       device_scene.emitted_power > 0 ? static_cast<float>(1 / device_scene.emitted_power) : 0.0f;
 }
 
+/// What paths are told of dielectrics that touch or hold something; nothing where none does.
+void set_nested(Params& params, const Dielectrics& dielectrics);
+
 /// Params as far as the scene decides them; passes fill in the rest.
 inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, std::uint32_t seed) {
   Params params{};
@@ -29,6 +32,7 @@ inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, 
   set_emission(params, device_scene);
   params.sobol = scene.renderer.sampler == Sampler::sobol;
   params.emission_met = has_visible_light(scene);
+  set_nested(params, device_scene.dielectrics);
   const auto to_float = [](double x) { return static_cast<float>(x); };
   const Vec3 scattering = scene.medium.scattering, extinction = scene.medium.absorption + scattering;
   params.extinction = {to_float(extinction.x), to_float(extinction.y), to_float(extinction.z),

@@ -37,6 +37,7 @@ struct MaterialSpec {
   Color eta, k;                // conductor: real and imaginary part of the index
   double roughness = 0;        // glass, conductor, plastic: the square root of GGX's alpha
   Vec3 absorption;             // glass: per unit length inside
+  int priority = 0;            // glass: the higher one fills where dielectrics overlap
   double dispersion = 0;       // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
 };
 

@@ -69,7 +69,9 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
     material.eta = read_vector(json.at("eta"), refractive_index);
     material.k = read_vector(json.at("k"), extinction_coefficient);
   } else if (material.kind == Kind::glass) {
-    json.check_keys({"type", "color", "emission", "two_sided", "ior", "cauchy", "absorption", "roughness"});
+    json.check_keys(
+        {"type", "color", "emission", "two_sided", "ior", "cauchy", "absorption", "roughness", "priority"});
+    material.priority = static_cast<int>(json.integer("priority", 0, -1000000, 1000000));
     material.absorption = read_vector(json, "absorption", {}, non_negative_number);
   } else if (material.kind == Kind::plastic) {
     json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"});

@@ -1,10 +1,11 @@
 // What a scene holds, in words and numbers.
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <sstream>
 
+#include "dielectrics.hpp"
+#include "object_bounds.hpp"
 #include "report.hpp"
 
 namespace causticl {
@@ -60,63 +61,6 @@ const char* material_name(MaterialSpec::Kind kind) {
       break;
   }
   return "plastic";
-}
-
-struct Bounds {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-
-  bool empty() const { return low.x > high.x; }
-  void add(Vec3 p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  /// The image of the local ellipsoid about `centre` with these half axes.
-  void add_ellipsoid(const Transform& transform, Vec3 centre, Vec3 half_axes) {
-    Vec3 extent;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 row = transform.rows[static_cast<std::size_t>(axis)];
-      extent[axis] = length({row.x * half_axes.x, row.y * half_axes.y, row.z * half_axes.z});
-    }
-    add(transform.point(centre) - extent);
-    add(transform.point(centre) + extent);
-  }
-  void add_box(const Transform& transform, Vec3 size) {
-    for (int corner = 0; corner < 8; ++corner)
-      add(transform.point({size.x * ((corner & 1) - 0.5), size.y * ((corner >> 1 & 1) - 0.5),
-                           size.z * ((corner >> 2 & 1) - 0.5)}));
-  }
-};
-
-void bounds_add(Bounds& bounds, const Scene& scene, const Object& object) {
-  const double r = object.radius;
-  switch (object.shape) {
-    case Object::Shape::plane:
-      break;  // infinite
-    case Object::Shape::sphere:
-      bounds.add_ellipsoid(object.transform, {}, {r, r, r});
-      break;
-    case Object::Shape::disk:
-      bounds.add_ellipsoid(object.transform, {}, {r, r, 0});
-      break;
-    case Object::Shape::rectangle:
-      bounds.add_box(object.transform, {1, 1, 0});
-      break;
-    case Object::Shape::box:
-      bounds.add_box(object.transform, object.size);
-      break;
-    case Object::Shape::mesh:
-      for (const auto& p : scene.meshes[static_cast<std::size_t>(object.mesh)].positions)
-        bounds.add(object.transform.point({p[0], p[1], p[2]}));
-      break;
-    case Object::Shape::bezier:
-      // A Bezier curve lies in the convex hull of its control points, and so does what it sweeps.
-      for (const auto& p : object.points)
-        bounds.add_ellipsoid(object.transform, {0, p[1], 0}, {p[0], 0, p[0]});
-      break;
-  }
 }
 
 void print_image(std::ostream& text, const Scene& scene) {
@@ -263,8 +207,8 @@ void print_emitters(std::ostream& text, const Scene& scene) {
 }
 
 void print_bounds(std::ostream& text, const Scene& scene) {
-  Bounds bounds;
-  for (const auto& object : scene.objects) bounds_add(bounds, scene, object);
+  BoundingBox bounds;
+  for (const auto& object : scene.objects) bounds.add(object_bounds(scene, object));
   text << "bounds      ";
   if (bounds.empty())
     text << "none: every object is infinite\n";
@@ -286,6 +230,7 @@ std::string scene_summary(const Scene& scene) {
   print_medium(text, scene.medium);
   print_emitters(text, scene);
   print_bounds(text, scene);
+  for (const auto& line : find_dielectrics(scene).lines) text << "dielectrics " << line << "\n";
   for (const auto& notice : scene.notices) text << "note        " << notice << "\n";
   return text.str();
 }

@@ -124,7 +124,7 @@ void upload_into(cl::Buffer& buffer, Device& device, const std::vector<T>& data,
 }  // namespace
 
 void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out) {
-  const World world = build_world(scene, time);
+  const World world = build_world(scene, time, out.dielectrics);
   KdTree tree = build_kdtree(world.tree, out.threads);
   if (out.triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, out.threads);
   upload_into(out.nodes, device, tree.nodes, "tree nodes");
@@ -159,9 +159,16 @@ DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, T
   DeviceScene out;
   out.threads = threads;
   out.triangle_test = triangle_test;
+  out.dielectrics = find_dielectrics(scene);
   place_scene(scene, scene.camera.shutter[0], device, out);
   std::vector<Material> materials;
   for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
+  // Behind those of the scene one for each body, in the order in which they fill what several hold.
+  for (std::size_t i = 0; i < out.dielectrics.bodies.size(); ++i) {
+    const Object& body = scene.objects[static_cast<std::size_t>(out.dielectrics.bodies[i])];
+    materials.push_back(materials[static_cast<std::size_t>(body.material)]);
+    if (out.dielectrics.closed[i]) materials.back().flags |= MATERIAL_CLOSED;
+  }
   out.materials = device.upload(materials, "materials");
   upload_textures(scene, device, out);
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device.hpp"
+#include "dielectrics.hpp"
 #include "kdtree.hpp"
 #include "scene.hpp"
 #include "triangle_transforms.hpp"
@@ -20,6 +21,7 @@ struct DeviceScene {
   double tree_build_seconds = 0;                          // of all trees so far
   unsigned threads = 0;                                   // that build a tree; 0: all cores
   TriangleTest triangle_test = TriangleTest::watertight;  // of the kernels
+  Dielectrics dielectrics;
 };
 
 /// Uploads everything as it is when the shutter opens, with a tree built by `threads` threads (0: all cores),

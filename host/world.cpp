@@ -25,15 +25,21 @@ void store_rows(const Transform& transform, float4 rows[3]) {
 /// Appends the primitives of one object after another.
 class WorldBuilder {
  public:
-  WorldBuilder(const Scene& scene, double time) : scene_(scene), time_(time) {}
+  WorldBuilder(const Scene& scene, double time, const Dielectrics& dielectrics)
+      : scene_(scene), time_(time), dielectrics_(dielectrics) {
+    for (const auto& object : scene.objects) materials_.push_back(static_cast<uint>(object.material));
+    for (std::size_t i = 0; i < dielectrics.bodies.size(); ++i)
+      materials_[static_cast<std::size_t>(dielectrics.bodies[i])] =
+          static_cast<uint>(scene.materials.size() + i);
+  }
 
   World build() {
     // Planes come first, so that a kernel scans them by number.
-    for (const auto& object : scene_.objects)
-      if (object.shape == Shape3::plane) add_shape(placed(object));
+    for (index_ = 0; index_ < scene_.objects.size(); ++index_)
+      if (scene_.objects[index_].shape == Shape3::plane) add_shape(placed(scene_.objects[index_]));
     world_.plane_count = static_cast<uint>(world_.shapes.size());
-    for (const auto& unplaced : scene_.objects) {
-      const Object object = placed(unplaced);
+    for (index_ = 0; index_ < scene_.objects.size(); ++index_) {
+      const Object object = placed(scene_.objects[index_]);
       switch (object.shape) {
         case Shape3::plane:
           break;
@@ -46,13 +52,16 @@ class WorldBuilder {
           add_shape(object);
       }
     }
-    finish_emitters(scene_, world_);
+    finish_emitters(scene_, dielectrics_, world_);
     return std::move(world_);
   }
 
  private:
   const Scene& scene_;
   const double time_;
+  const Dielectrics& dielectrics_;
+  std::vector<uint> materials_;  // of each object, on the device
+  std::size_t index_ = 0;        // of the object at hand
   World world_;
 
   /// The object where it is at the time.
@@ -72,6 +81,7 @@ class WorldBuilder {
     result.type = type;
     result.radiance = to_float4(material(object).emission, area);
     result.two_sided = material(object).two_sided;
+    result.in_dielectric = !dielectrics_.bodies.empty() && dielectrics_.holds_emitter[index_];
     return result;
   }
 
@@ -88,8 +98,7 @@ class WorldBuilder {
       uvs[c][1] = static_cast<float>(corners[c].v);
     }
     world_.tree.triangles.push_back(triangle);
-    world_.attributes.push_back(
-        triangle_attributes(static_cast<uint>(object.material), smooth ? normals : nullptr, uvs));
+    world_.attributes.push_back(triangle_attributes(materials_[index_], smooth ? normals : nullptr, uvs));
     if (!emissive(object)) return;
     const Vec3 e1 = corners[1].position - corners[0].position, e2 = corners[2].position - corners[0].position;
     const double area = 0.5 * length(cross(e1, e2));
@@ -115,7 +124,7 @@ class WorldBuilder {
   /// Spheres, planes, disks and revolved curves.
   void add_shape(const Object& object) {
     causticl::Shape shape{};
-    shape.material = static_cast<uint>(object.material);
+    shape.material = materials_[index_];
     Transform transform = object.transform;
     Bounds bounds;
     double area = 0;
@@ -230,6 +239,8 @@ std::size_t bounded_primitives(const Scene& scene) {
   return count;
 }
 
-World build_world(const Scene& scene, double time) { return WorldBuilder(scene, time).build(); }
+World build_world(const Scene& scene, double time, const Dielectrics& dielectrics) {
+  return WorldBuilder(scene, time, dielectrics).build();
+}
 
 }  // namespace causticl

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "dielectrics.hpp"
 #include "kdtree.hpp"
 #include "scene.hpp"
 #include "types.h"
@@ -22,8 +23,8 @@ struct World {
 
 /// The scene at `time`. Meshes, rectangles and boxes become world-space triangles, everything else becomes
 /// shapes; emissive ones are listed as emitters, as are the lights that are no surfaces, with their
-/// probabilities.
-World build_world(const Scene& scene, double time = 0);
+/// probabilities. Each body of `dielectrics` gets a material of its own, behind those of the scene.
+World build_world(const Scene& scene, double time = 0, const Dielectrics& dielectrics = {});
 
 /// How many primitives it puts into the tree.
 std::size_t bounded_primitives(const Scene& scene);

@@ -69,6 +69,7 @@ const std::vector<Field> fields{
     FIELD(Emitter, two_sided),
     FIELD(Emitter, shape),
     FIELD(Emitter, first_area),
+    FIELD(Emitter, in_dielectric),
     FIELD(EnvironmentTexel, radiance),
     FIELD(EnvironmentTexel, density),
     FIELD(EnvironmentTexel, cdf),
@@ -94,6 +95,9 @@ const std::vector<Field> fields{
     FIELD(Params, photon_copies),
     FIELD(Params, sobol),
     FIELD(Params, coverage),
+    FIELD(Params, nested),
+    FIELD(Params, contact_low),
+    FIELD(Params, contact_high),
     FIELD(Params, first_photon),
     FIELD(Params, radius2),
     FIELD(Params, shadow_rays),
@@ -157,6 +161,8 @@ const std::vector<Field> fields{
     FIELD(Counters, saturated),
     FIELD(Counters, unresolved),
     FIELD(Counters, traversal_bound),
+    FIELD(Counters, media_full),
+    FIELD(Counters, media_left),
 };
 
 }  // namespace
