@@ -34,7 +34,7 @@ INLINE real error_along(real error, real3 n) { return error * (fabs(n.x) + fabs(
 // The ray along `direction` through a little before `position` to as far behind, which is where *t_max ends. At grazing
 // incidence surfaces that are apart by their errors are met far from each other; below a cosine of 0.02 not all are found.
 INLINE Ray contact_ray(real3 position, real3 direction, real3 n, real error, real *t_max) {
-  real reach = 4 * error_along(error, n) / fmax(fabs(dot3(direction, n)), (real)0.02f);
+  real reach = 8 * error_along(error, n) / fmax(fabs(dot3(direction, n)), (real)0.02f);
   Ray ray = {along3(position, -reach, direction), direction};
   *t_max = 2 * reach;
   return ray;
@@ -91,7 +91,9 @@ OUTLINE void contact_find(const Scene *scene, Ray ray, Hit hit, Surface *surface
     geometry_surface(&scene->geometry, probe, list.hit[i], &other);
     real apart = fabs(dot3(n, difference3(other.position, surface->position)));
     real error = error_along(other.error, other.geometric_normal);
-    if (!(apart <= own + error)) continue;
+    // A ray that leaves either may pass the other by where they are so near: both places are known to their errors, and
+    // the ray is moved off by one of them.
+    if (!(apart <= 2 * (own + error))) continue;
     farthest = fmax(farthest, apart + error);
     if (is_dielectric(scene, &other)) {
       contact_add(faces, other.material, crossing_of(other.geometric_normal, ray.direction), list.hit[i]);

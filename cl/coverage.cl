@@ -6,7 +6,7 @@
 // square: with a hundred probes at a straight edge, 1%.
 #include "coverage_mean.cl"
 #include "grid.cl"
-#include "scene.cl"
+#include "path_media.cl"
 #include "warp.cl"
 
 // A quarter of the probes is of the disc of half the radius, which only the error estimate asks for.
@@ -30,6 +30,26 @@ INLINE bool coverage_goes_on(const Geometry *g, Hit hit, real3 offset) {
   return HAS(EFFECT_PLANES) ? g->shapes[hit.primitive & ~HIT_SHAPE].type == SHAPE_PLANE : false;
 }
 
+// The nearest surface before hit->t that keeps photons. Of several that lie at one place it finds that one, where a ray
+// that is moved past glass would pass it by.
+OUTLINE bool coverage_closest(const Scene *scene, Ray ray, Hit *hit) {
+  HitFilter filter = {scene->materials, false};
+  HitList list;
+  geometry_hits(&scene->geometry, ray, hit->t, &filter, &list);
+  bool found = false;
+  for (uint i = 0; i < list.count; ++i) {
+    if (!(list.hit[i].t < hit->t)) continue;
+    Surface surface;
+    geometry_surface(&scene->geometry, ray, list.hit[i], &surface);
+    global const Material *material = scene->materials + surface.material;
+    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+    if (!keeps_photons(&bsdf, material)) continue;
+    *hit = list.hit[i];
+    found = true;
+  }
+  return found;
+}
+
 // The probe of a visible point at `position`, where the hit `here` is, on a surface whose normal `n` is on its side, for a
 // ball of that radius: what lies first of surfaces that keep photons, along the chord that is the ball's normal at the
 // place; but the primitive of `here` wherever that goes on. Surface that leans away by as much as photons must not does
@@ -51,7 +71,7 @@ OUTLINE uint coverage_probe(const Scene *scene, Hit here, real3 position, real3 
   for (uint i = 0; i < COVERAGE_MOST_HITS; ++i) {
     Hit hit = hit_none(left);
     ++*rays;
-    bool met = geometry_closest(&scene->geometry, ray, &hit);
+    bool met = nested(scene) ? coverage_closest(scene, ray, &hit) : geometry_closest(&scene->geometry, ray, &hit);
     count_faults(hit.faults, counters);
     if (!met) return probe;
     Surface surface;

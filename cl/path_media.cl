@@ -164,9 +164,10 @@ INLINE void media_bsdf(const Scene *scene, const Interface *interface, const Sur
     index_before += dispersion_before * inverse;
     index_behind += dispersion_behind * inverse;
   }
-  real eta = before == behind ? 1 : index_behind / index_before;
-  bsdf->ior = dot3(surface->geometric_normal, direction) < 0 ? eta : 1 / eta;
+  bool entering = dot3(surface->geometric_normal, direction) < 0;
+  bsdf->ior = entering ? index_behind / index_before : index_before / index_behind;
   if (before == behind) {
+    bsdf->ior = 1;
     bsdf->color = (real3)(1, 1, 1);
     bsdf->alpha = 0;
   } else if (HAS(EFFECT_ROUGH)) {

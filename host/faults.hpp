@@ -33,9 +33,8 @@ inline constexpr FaultKind fault_kinds[] = {
      "paths were in more than 8 dielectrics at once, or came from among too many: the innermost were left "
      "out"},
     {"media_left", &Faults::media_left,
-     "boundaries of dielectrics were left from behind without having been entered: those surfaces are open, "
-     "and "
-     "hold what lies behind them"},
+     "boundaries of dielectrics were left from behind without having been entered: an open surface, which "
+     "holds what lies behind it, or, where they are few, rounding"},
     {"dropped", &Faults::dropped,
      "photons found no room in the device's memory: light is missing; fewer photons a pass (--photons) fit"},
 };
