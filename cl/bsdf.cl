@@ -292,23 +292,6 @@ INLINE bool path_survives(real3 *throughput, uint depth, real random) {
   return max_component(*throughput) > 0;
 }
 
-// What a photon's flux is multiplied by on arrival at a smooth-shaded surface: density estimation divides by
-// geometric area, while the BSDF takes its cosine with the shading normal (Veach 1997, 5.3). Bounded, since
-// the ratio has no bound at grazing incidence.
-// Light from below the horizon of the shading normal is none, as for shadow rays.
-INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
-  real geometric = -dot3(direction, surface->geometric_normal);
-  real shading = -dot3(direction, surface->shading_normal) * (geometric < 0 ? -1 : 1);
-  return clamp(shading / fmax(fabs(geometric), (real)1e-6f), (real)0, (real)4);
-}
-
-// The same for departure of a photon in `direction` from a Lambert or rough surface that was sampled about n.
-INLINE real shading_normal_departure(const Surface *surface, real3 direction, real3 n) {
-  real geometric = fabs(dot3(direction, surface->geometric_normal));
-  real shading = fabs(dot3(direction, n));
-  return fmin(geometric / fmax(shading, (real)1e-6f), (real)4);
-}
-
 // Emitted radiance towards where `direction` came from.
 INLINE real3 emission_at(global const Material *material, const Surface *surface, real3 direction) {
   global const float *emission = (global const float *)&material->emission;

@@ -147,13 +147,19 @@ OUTLINE void wave_learn(const Scene *scene, const Params *params, const Wave *wa
 OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, uint capacity,
                         volatile global Counters *counters) {
   // Which events left a record is as good as random: a list without branches costs a third of asking one by one.
-  uint kept[WAVE_CAPACITY], stored = 0, indirect = 0, saturated = 0, non_finite = 0;
+  uint kept[WAVE_CAPACITY], stored = 0, copies = 0, indirect = 0, saturated = 0, non_finite = 0;
   for (uint i = 0; i < count; ++i) {
     uint events = wave->events[i];
     bool stays = (events & EVENT_STORED) != 0;
     kept[stored] = i;
     stored += stays;
-    indirect += stays && (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON;
+    bool is_indirect = stays && (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON;
+    indirect += is_indirect;
+    if (HAS(EFFECT_SMOOTH)) {
+      uint more = stays ? events >> EVENT_COPIES_SHIFT : 0;
+      copies += more;
+      indirect += is_indirect ? more : 0;
+    }
     saturated += (events & EVENT_SATURATED) != 0;
     non_finite += (events & EVENT_NON_FINITE) != 0;
   }
@@ -161,13 +167,15 @@ OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, ui
   if (non_finite > 0) atomic_add(&counters->non_finite, non_finite);
   if (stored == 0) return;
   if (indirect > 0) atomic_add(&counters->indirect, indirect);
-  uint slot = list_reserve(stored, &counters->photons);
-  uint room = slot < capacity ? min(stored, capacity - slot) : 0;
-  for (uint k = 0; k < room; ++k) {
+  uint slot = list_reserve(stored + copies, &counters->photons);
+  uint room = slot < capacity ? min(stored + copies, capacity - slot) : 0, next = stored;
+  for (uint k = 0; k < min(stored, room); ++k) {
     uint i = kept[k];
     Photon photon = {{wave->position[0][i], wave->position[1][i], wave->position[2][i]},
                      wave->normal[i], wave->flux_rg[i], wave->flux_b[i]};
     photons[slot + k] = photon;
+    if (HAS(EFFECT_SMOOTH))
+      for (uint more = wave->events[i] >> EVENT_COPIES_SHIFT; more > 0 && next < room; --more) photons[slot + next++] = photon;
   }
 }
 

@@ -1,4 +1,5 @@
 // What befalls a photon: its record where it lands, and how it goes on from there or ends.
+#include "adjoint_bsdf.cl"
 #include "direct.cl"
 #include "wave.cl"
 
@@ -9,9 +10,16 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   return (uint)clamp(units, (real)0, (real)65535);
 }
 
-// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits.
+// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits. Where shading normals have
+// raised the flux above what a record holds, several alike share it: else the tail of their factor, which has no bound,
+// would be missing.
 INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history, real4 dither, Photon *record) {
   bool saturated = false;
+  uint more = 0;
+  if (HAS(EFFECT_SMOOTH)) {
+    more = (uint)fmin(max_component(flux) * (PHOTON_FLUX_UNIT / 65534), (real)EVENT_MOST_COPIES);
+    flux = quotient3(flux, 1 + (real)more);
+  }
   uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
        b = flux_quantise(flux.z, dither.z, &saturated);
   bool finite = isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z);
@@ -20,7 +28,7 @@ INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history,
   record->flux_rg = r | g << 16;
   record->flux_b = b;
   if (HAS(OUTPUT_LAYERS)) record->flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
-  return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u);
+  return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u) | more << EVENT_COPIES_SHIFT;
 }
 
 // Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
@@ -45,6 +53,18 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
   photon->mark = INDIRECT_PHOTON;
   if (max_component(photon->flux) > 0) *events |= EVENT_ALIVE;
   return true;
+}
+
+// Puts the adjoint of what camera paths do in place of *next where the shading normal is not the geometric one.
+INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random, BsdfSample *next) {
+  bool bent = has_bent_normal(surface);
+  if (VECTORISED(LOOPED_EVENTS)) {
+    BsdfSample adjoint = adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
+    next->direction = choose3(bent, adjoint.direction, next->direction);
+    next->weight = choose3(bent, adjoint.weight, next->weight);
+  } else if (bent) {
+    *next = adjoint_bsdf_sample(bsdf, surface, direction, random);
+  }
 }
 
 // Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
@@ -86,13 +106,11 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
 
   bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
   bool black = is_black(&bsdf, material);
-  real arrival = shading_normal_arrival(&surface, direction);
-  real3 arrived = scaled3(arrival, flux);
   // With shadow rays the light that arrives straight from an emitter is counted there.
   bool counted = shadow_rays && depth == 0, landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
-    real3 landed = arrived;
+    real3 landed = scaled3(shading_normal_arrival(&surface, direction), flux);
     if (plastic) landed *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
     uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
@@ -107,9 +125,8 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
   BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
-  bool spread = bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf);
-  real departure = shading_normal_departure(&surface, next.direction, n);
-  flux = product3(choose3(spread, arrived, flux), scaled3(spread ? departure : 1, next.weight));
+  if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
+  flux = product3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);

@@ -31,6 +31,8 @@
 #define EVENT_SATURATED 4u   // that had more flux than it holds
 #define EVENT_NON_FINITE 8u  // it had no finite record
 #define EVENT_LANDED 16u     // the record is not to be stored, since shadow rays bring that light
+#define EVENT_COPIES_SHIFT 8u  // from this bit on, how many records more are to be stored with the same content
+#define EVENT_MOST_COPIES 4095u
 
 // What a photon carries from event to event.
 typedef struct {
