@@ -76,6 +76,7 @@ const char* hard_case_name(int hard_case) {
       "sampling",
       "arithmetic of the device",
       "photons at bent shading normals",
+      "dielectrics that touch or hold each other",
   };
   return names[hard_case - 1];
 }

@@ -87,7 +87,7 @@ const char* const water = R"({"type": "glass", "ior": 1.33, "absorption": [0, 0.
 
 TEST_CASE("the dielectrics around a point are those of the winding number") {
   TestScene test(box("[2, 2, 2]", R"("x": 0, "y": 0, "z": 0)", glass) + "," +
-                 box("[1, 3, 1]", R"("x": 0.5, "y": 0, "z": 0)", water) + "," +
+                 box("[1, 3, 1]", R"("x": 0.4, "y": 0, "z": 0)", water) + "," +
                  R"({"type": "sphere", "radius": 1.2, "material": )" + glass +
                  R"(, "transform": [{"type": "shift", "x": 1, "y": 0.5, "z": 0}]},
                  {"type": "bezier_rotate", "point": [[0, -1], [1.5, -1], [1.5, 1], [0, 1]], "material": )" +

@@ -89,11 +89,12 @@ struct RenderBudget {
 
 /// Renders with kernels for whatever any of these scenes holds: one set of programs, which take seconds each
 /// to compile, serves all of them.
-inline RenderResult render_for(CheckContext& context, const Scene& scene) {
+inline RenderResult render_for(CheckContext& context, const Scene& scene,
+                               const std::string& effects =
+                                   "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,"
+                                   "environment,aimed_photons,smooth,needles") {
   RenderOptions options;
-  options.effects =
-      "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,environment,aimed_photons,"
-      "smooth,needles";
+  options.effects = effects;
   options.kernel_dir = context.kernel_dir;
   options.seed = context.seed;
   options.threads = context.threads;

@@ -33,6 +33,7 @@ std::vector<Check> stability_checks() {
                             path_number_checks(),
                             non_finite_checks(),
                             arithmetic_checks(),
+                            nested_checks(),
                             bent_normal_checks()})
     for (Check check : group) {
       // A file's checks share its kernels, unless they say otherwise.
