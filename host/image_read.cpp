@@ -67,11 +67,12 @@ float srgb_to_linear(float value) {
 
 constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR, PFM or EXR";
 
-/// Why stb failed last. Some of its failures give no reason.
+/// Why stb failed last. Some of its failures give no reason: what is left then is that of a format that the
+/// file was tried for before.
 std::string stb_fault() {
-  const char* fault = stbi_failure_reason();
-  if (!fault) return "it is damaged";
-  return fault == std::string("unknown image type") ? unknown_type : fault;
+  const std::string fault = stbi_failure_reason() ? stbi_failure_reason() : "";
+  if (fault.empty() || fault == "bad png sig" || fault == "no SOI") return "it is damaged";
+  return fault == "unknown image type" ? unknown_type : fault;
 }
 
 template <typename T>

@@ -7,7 +7,7 @@ namespace causticl {
 namespace {
 
 // A progressive picture of three channels takes 10 as a rule, and a few dozen where each bit has its own.
-constexpr int most_scans = 100;
+constexpr int most_scans = 64;
 
 enum Marker : unsigned {
   baseline_frame = 0xc0,

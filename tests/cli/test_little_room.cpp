@@ -18,12 +18,14 @@ namespace {
 
 const Words a_render = small_render({"--passes", "1", "--quiet", "-o", "a.pfm"});
 
+/// One kernel, which takes a second to compile.
+const Words one_kernel{"selftest", "--case", "square root", "--inputs", "100", "--threads", "1"};
+
 bool tests_run_on_pocl() { return test_device().info().platform_name == "Portable Computing Language"; }
 
-void check_done(const MeasuredRun& run, const TemporaryFolder& folder) {
+void check_done(const MeasuredRun& run) {
   CAPTURE(run.errors);
   CHECK(run.exit_code == 0);
-  CHECK(fs::remove(folder.path("a.pfm")));
 }
 
 /// A clear line, and the exit code that says that the device or what is around it is at fault.
@@ -62,23 +64,18 @@ std::vector<std::string> run_folders(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("without a home, or a temporary folder, a picture is rendered") {
+TEST_CASE("without a home, or a temporary folder, kernels are compiled and run") {
   const TemporaryFolder folder;
   const std::string path = folder.path("");
-  check_done(run_measured(a_render, path,
-                          [] {
-                            for (const char* name :
-                                 {"HOME", "XDG_CACHE_HOME", "CAUSTICL_CACHE_DIR", "TMPDIR", "POCL_CACHE_DIR"})
-                              unsetenv(name);
-                          }),
-             folder);
-  check_done(run_measured(a_render, path,
-                          [&] {
-                            keep_in(folder.path("cache"));
-                            setenv("TMPDIR", "/nonexistent", 1);
-                            setenv("HOME", "relative", 1);
-                          }),
-             folder);
+  check_done(run_measured(one_kernel, path, [] {
+    for (const char* name : {"HOME", "XDG_CACHE_HOME", "CAUSTICL_CACHE_DIR", "TMPDIR", "POCL_CACHE_DIR"})
+      unsetenv(name);
+  }));
+  check_done(run_measured(one_kernel, path, [&] {
+    keep_in(folder.path("cache"));
+    setenv("TMPDIR", "/nonexistent", 1);
+    setenv("HOME", "relative", 1);
+  }));
   CHECK(!names_in(folder.path("cache")).empty());
 }
 
@@ -86,9 +83,8 @@ TEST_CASE("folders of kernels that others can change are not used, a line says w
   const TemporaryFolder folder;
   fs::create_directories(folder.path("open"));
   chmod(folder.path("open").c_str(), 01777);
-  const Words loud = small_render({"--passes", "1", "-o", "a.pfm"});
   const auto render = [&](const std::vector<std::pair<std::string, std::string>>& environment) {
-    const Finished run = run_causticl(loud, folder.path(""), environment);
+    const Finished run = run_causticl(one_kernel, folder.path(""), environment);
     check_success(run);
     CHECK(names_in(folder.path("open")).empty());
     CHECK_THAT(run.errors, Contains("open: other users may write to it (mode 1777)"));
@@ -122,12 +118,11 @@ TEST_CASE("a full disk of kernels, one without room for files, and no /sys") {
   fs::create_directories(folder.path("disk"));
   for (const char* options : {"size=8m,mode=700", "size=200m,nr_inodes=40,mode=700"}) {
     CAPTURE(options);
-    const Words loud = small_render({"--passes", "1", "-o", "a.pfm"});
-    const MeasuredRun run = run_measured(loud, path, [&] {
+    const MeasuredRun run = run_measured(one_kernel, path, [&] {
       if (!own_mounts() || mount("none", folder.path("disk").c_str(), "tmpfs", 0, options) != 0) _exit(99);
       keep_in(folder.path("disk"));
     });
-    check_done(run, folder);
+    check_done(run);
     CHECK_THAT(run.errors, Contains("kernels are not kept for the next run: ") && Contains("disk: there "));
   }
   // Nowhere to write to at all.
@@ -142,8 +137,11 @@ TEST_CASE("a full disk of kernels, one without room for files, and no /sys") {
     unsetenv("POCL_CACHE_DIR");
   };
   if (!tests_run_on_pocl()) return;
-  check_device_error(run_measured({"explain", cornell_box, "--measure"}, "/", no_room),
-                     "kernels cannot be built: /tmp: there are ");
+  const std::string binary = CAUSTICL_BINARY;
+  if (binary.starts_with("/tmp/") || binary.starts_with("/var/tmp/") || binary.starts_with("/dev/shm/"))
+    WARN("skipped: causticl itself lies in a temporary folder");
+  else
+    check_device_error(run_measured(one_kernel, "/", no_room), "kernels cannot be built: /tmp: there are ");
   check_device_error(run_measured(a_render, path,
                                   [] {
                                     if (!own_mounts() || umount2("/sys", MNT_DETACH) != 0) _exit(99);
