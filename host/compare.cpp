@@ -80,12 +80,12 @@ Comparison compare_pictures(const Picture& picture, const Picture& reference) {
   return result;
 }
 
-Picture read_rendered(const std::string& file) {
+Picture read_rendered(const std::string& file, const ImageLimits& limits) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png") return read_picture(file);
-  const Image image = read_image(file, false);
+  if (extension != ".png") return read_picture(file, limits);
+  const Image image = read_image(file, false, limits);
   Picture picture{image.width, image.height, {}};
   for (int y = image.height - 1; y >= 0; --y)  // images have their bottom row first
     for (int x = 0; x < image.width; ++x)

@@ -33,7 +33,7 @@ Comparison compare_pictures(const Picture& picture, const Picture& reference);
 
 /// Reads any picture that `render` writes: .pfm, .exr, and .png through the inverse of its tone curve. Throws
 /// UserError.
-Picture read_rendered(const std::string& file);
+Picture read_rendered(const std::string& file, const ImageLimits& limits = {});
 
 /// The table of `causticl compare`.
 std::string comparison_table(const Comparison& comparison);

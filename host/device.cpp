@@ -4,7 +4,9 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "driver_needs.hpp"
 #include "error.hpp"
+#include "leftovers.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -50,6 +52,8 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
+  check_driver_needs();
+  expect_driver_to_abort();
   std::vector<DeviceInfo> result;
   std::vector<cl::Platform> platforms;
   try {

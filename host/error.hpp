@@ -1,6 +1,7 @@
 // The two kinds of failure that end a run, told apart by exit code.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -16,5 +17,8 @@ struct UserError : std::runtime_error {
 struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Ctrl-C or SIGTERM before there was anything to keep: exit code 130.
+struct Interrupted : std::exception {};
 
 }  // namespace causticl

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "image_limits.hpp"
+
 namespace causticl {
 
 /// A decoded texture: linear RGB and alpha as floats, four a texel, BOTTOM row first.
@@ -16,7 +18,7 @@ struct Image {
 
 /// Reads PNG, JPEG, BMP, TGA, HDR (stb_image), PFM or EXR. `srgb` decodes 8-bit values by the sRGB curve;
 /// otherwise they are value/255. Throws UserError naming the file and the fault.
-Image read_image(const std::string& file, bool srgb);
+Image read_image(const std::string& file, bool srgb, const ImageLimits& limits = {});
 
 /// One number of every pixel beside its colour, under the name that it has in an EXR file.
 struct Channel {
@@ -46,6 +48,6 @@ bool holds_channels(const std::string& file);
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata);
 
 /// Reads .pfm or .exr back as linear RGB, an EXR file with its channels error.*. Throws UserError.
-Picture read_picture(const std::string& file);
+Picture read_picture(const std::string& file, const ImageLimits& limits = {});
 
 }  // namespace causticl

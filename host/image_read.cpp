@@ -1,11 +1,9 @@
 #include <stb/stb_image.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <new>
@@ -14,30 +12,12 @@
 
 #include "error.hpp"
 #include "image_formats.hpp"
+#include "input_file.hpp"
+#include "jpeg_markers.hpp"
+#include "stb_memory.hpp"
 
 namespace causticl {
 namespace {
-
-std::string read_bytes(const std::string& file) {
-  const auto status = [&] {
-    std::error_code error;
-    return std::filesystem::status(file, error);
-  }();
-  if (!std::filesystem::exists(status)) throw UserError(file + ": no such file");
-  if (std::filesystem::is_directory(status)) throw UserError(file + ": is a folder; expected an image");
-  if (!std::filesystem::is_regular_file(status))
-    throw UserError(file + ": is not a regular file; expected an image");
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes;
-  if (in) {
-    std::error_code error;
-    bytes.resize(std::filesystem::file_size(file, error));
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  }
-  if (!in) throw UserError(file + ": cannot be read: " + std::strerror(errno));
-  if (bytes.empty()) throw UserError(file + ": is empty; expected an image");
-  return bytes;
-}
 
 /// A decoder's complaint with the file before it, on one line.
 [[noreturn]] void fail(const std::string& file, const std::string& fault) {
@@ -49,7 +29,7 @@ std::string read_bytes(const std::string& file) {
 
 /// Feeds stb from memory, and throws when it asks for more than there is: stb itself takes what a truncated
 /// JPEG, BMP, TGA or HDR lacks for zeros, and can look for the end of an HDR for ever. (What stb has
-/// allocated by then is lost; a run that meets such a file ends.)
+/// allocated by then, StbMemory gives back.)
 struct StbSource {
   const std::string& bytes;
   std::size_t position = 0;
@@ -80,28 +60,6 @@ struct StbSource {
   }
 };
 
-/// Throws for a JPEG with a Huffman table of more than 256 codes: stb_image before 2.28 writes past its own
-/// tables there. Walks the markers as the decoder does, entropy-coded data between them included.
-void check_jpeg_tables(const std::string& bytes) {
-  const auto byte = [&](std::size_t i) -> std::size_t {
-    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
-  };
-  if (byte(0) != 0xff || byte(1) != 0xd8) return;
-  for (std::size_t at = bytes.find('\xff', 2); at < bytes.size(); at = bytes.find('\xff', at)) {
-    while (byte(at) == 0xff) ++at;
-    const std::size_t marker = byte(at++);
-    if (marker < 0xc0 || (marker >= 0xd0 && marker <= 0xd9)) continue;  // stuffing, restarts, start, end
-    const std::size_t end = at + std::size_t{256} * byte(at) + byte(at + 1);
-    for (std::size_t table = at + 2; marker == 0xc4 && table < end;) {
-      std::size_t codes = 0;
-      for (std::size_t length = 1; length <= 16; ++length) codes += byte(table + length);
-      if (codes > 256) throw std::runtime_error("a Huffman table has more than 256 codes");
-      table += 17 + codes;
-    }
-    at = end;
-  }
-}
-
 /// The value of an sRGB component in [0, 1] (IEC 61966-2-1).
 float srgb_to_linear(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
@@ -109,8 +67,34 @@ float srgb_to_linear(float value) {
 
 constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR, PFM or EXR";
 
+/// Why stb failed last. Some of its failures give no reason: what is left then is that of a format that the
+/// file was tried for before.
+std::string stb_fault() {
+  const std::string fault = stbi_failure_reason() ? stbi_failure_reason() : "";
+  if (fault.empty() || fault == "bad png sig" || fault == "no SOI") return "it is damaged";
+  return fault == "unknown image type" ? unknown_type : fault;
+}
+
 template <typename T>
 using StbLoader = T* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
+
+/// The size in the header. Throws where stb knows no such picture, or where decoding it would cost too much;
+/// returns what stb may allocate for it.
+std::uint64_t check_stb_header(const std::string& bytes, const ImageLimits& limits) {
+  if (is_jpeg(bytes)) check_jpeg(bytes);  // before stb reads its tables
+  const StbMemory memory(1u << 20);
+  StbSource source{bytes};
+  const stbi_io_callbacks io = StbSource::callbacks();
+  int width = 0, height = 0, channels = 0;
+  stb_forget_failure();
+  if (!stbi_info_from_callbacks(&io, &source, &width, &height, &channels))
+    throw std::runtime_error(stb_fault());
+  // The height of a BMP is negative where its top row comes first.
+  const ImageCost cost = stb_cost(bytes, std::llabs(width), std::llabs(height));
+  check_image_cost(cost, bytes.size(), limits);
+  const std::uint64_t rows = 64 * static_cast<std::uint64_t>(cost.width) + 65536;
+  return cost.working + 2 * cost.result + 3 * bytes.size() + rows;
+}
 
 /// Decodes to four floats a texel, top row first: integers as value/max, colours through the sRGB curve where
 /// `srgb` says so.
@@ -121,11 +105,7 @@ void decode_stb_as(StbLoader<T> load, const std::string& bytes, bool srgb, Image
   int channels = 0;
   const std::unique_ptr<T, void (*)(void*)> pixels(
       load(&io, &source, &image.width, &image.height, &channels, 4), stbi_image_free);
-  if (!pixels) {
-    const std::string fault = stbi_failure_reason();
-    throw std::runtime_error(fault == "unknown image type" ? unknown_type : fault);
-  }
-  check_image_size(image.width, image.height);
+  if (!pixels) throw std::runtime_error(stb_fault());
 
   image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   if constexpr (std::is_floating_point_v<T>) {
@@ -142,13 +122,14 @@ void decode_stb_as(StbLoader<T> load, const std::string& bytes, bool srgb, Image
   }
 }
 
-void decode_stb(const std::string& bytes, bool srgb, Image& image) {
+void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, Image& image) {
   if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
   const auto* raw = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto length = static_cast<int>(bytes.size());
   constexpr std::size_t smallest = 18;  // a TGA's header; with less stb could not even look for the type
   if (bytes.size() < smallest) throw std::runtime_error(unknown_type);
-  check_jpeg_tables(bytes);
+  const StbMemory memory(check_stb_header(bytes, limits));
+  stb_forget_failure();
   if (stbi_is_hdr_from_memory(raw, length))
     decode_stb_as<float>(stbi_loadf_from_callbacks, bytes, srgb, image);
   else if (stbi_is_16_bit_from_memory(raw, length))
@@ -158,10 +139,12 @@ void decode_stb(const std::string& bytes, bool srgb, Image& image) {
 }
 
 /// Four floats a texel, top row first.
-void decode_pfm_texels(const std::string& bytes, Image& image) {
+void decode_pfm_texels(const std::string& bytes, const ImageLimits& limits, Image& image) {
   const Picture picture = decode_pfm(bytes);
   image.width = picture.width;
   image.height = picture.height;
+  check_image_cost({picture.width, picture.height, 0, picture.rgb.size() * sizeof(float)}, bytes.size(),
+                   limits);
   image.rgba.assign(picture.rgb.size() / 3 * 4, 1.0f);
   for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.rgba[i / 3 * 4 + i % 3] = picture.rgb[i];
 }
@@ -176,17 +159,19 @@ void check_image_size(long long width, long long height) {
                              " pixels are too many; at most 2^28 are read");
 }
 
-Image read_image(const std::string& file, bool srgb) {
-  const std::string bytes = read_bytes(file);
+Image read_image(const std::string& file, bool srgb, const ImageLimits& limits) {
+  const std::string bytes = read_input(file, "an image", limits.memory);
   Image image;
   image.file = file;
   try {
-    if (is_exr(bytes))
+    if (is_exr(bytes)) {
+      check_image_cost(exr_cost(bytes), bytes.size(), limits);
       decode_exr(bytes, image.width, image.height, image.rgba);
-    else if (is_pfm(bytes))
-      decode_pfm_texels(bytes, image);
-    else
-      decode_stb(bytes, srgb, image);
+    } else if (is_pfm(bytes)) {
+      decode_pfm_texels(bytes, limits, image);
+    } else {
+      decode_stb(bytes, srgb, limits, image);
+    }
   } catch (const std::bad_alloc&) {
     fail(file, "it does not fit into memory");
   } catch (const std::exception& error) {
@@ -200,10 +185,11 @@ Image read_image(const std::string& file, bool srgb) {
   return image;
 }
 
-Picture read_picture(const std::string& file) {
-  const std::string bytes = read_bytes(file);
+Picture read_picture(const std::string& file, const ImageLimits& limits) {
+  const std::string bytes = read_input(file, "an image", limits.memory);
   try {
     if (!is_exr(bytes)) return decode_pfm(bytes);
+    check_image_cost(exr_cost(bytes), bytes.size(), limits);
     Picture picture;
     std::vector<float> rgba;
     decode_exr(bytes, picture.width, picture.height, rgba);

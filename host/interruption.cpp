@@ -5,6 +5,8 @@
 
 #include <cerrno>
 
+#include "leftovers.hpp"
+
 namespace causticl {
 namespace {
 
@@ -13,8 +15,8 @@ volatile sig_atomic_t requested = 0, silent = 0;
 void remember(int) {
   const int previous_errno = errno;
   requested = 1;
-  signal(SIGINT, SIG_DFL);
-  signal(SIGTERM, SIG_DFL);
+  signal(SIGINT, end_at_signal);
+  signal(SIGTERM, end_at_signal);
   // The line break leaves a progress bar, or the terminal's ^C, alone on its line.
   constexpr char line_break[] = "\n",
                  text[] = "causticl: interrupted: finishing the pass, then writing (again to stop at once)\n";

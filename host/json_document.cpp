@@ -14,7 +14,9 @@
 namespace causticl {
 namespace {
 
-constexpr std::size_t file_size_limit = std::size_t{1} << 28;
+// A scene is a text that people read; data stands in meshes and images. Each value takes about 200 bytes.
+constexpr std::size_t file_size_limit = std::size_t{32} << 20;
+constexpr std::size_t value_limit = 1'000'000;
 
 // The parser tells its handler about values but not about places. An iterator that reports how far it has
 // been read does: every event comes with the last character of its token read, and after a number one more,
@@ -163,6 +165,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   JsonValue& add(JsonValue::Kind kind) {
+    if (++values_ > value_limit) fail(line(), "expected at most 1000000 values, got more");
     JsonValue& value = place();
     value.kind = kind;
     value.line = line();
@@ -193,6 +196,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   const char* counted_;       // line_ is the line of this character
   const char* furthest_;      // end of what has been read
   int line_ = 1;
+  std::size_t values_ = 0;
   JsonValue root_;
   std::vector<Container> open_;
 };
@@ -225,13 +229,17 @@ JsonDocument json_read(const std::string& file) {
   const auto fail = [&](const std::string& why) { throw UserError(one_line(file + ": " + why)); };
   std::error_code status;
   if (std::filesystem::is_directory(file, status)) fail("expected a scene file, got a directory");
+  const auto refuse_large = [&] { fail("expected a scene file of at most 32 MiB, got a larger one"); };
+  if (std::filesystem::is_regular_file(file, status) &&
+      std::filesystem::file_size(file, status) > file_size_limit && !status)
+    refuse_large();
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) fail(std::string("cannot read the scene file: ") + std::strerror(errno));
   std::string text;
   for (char block[65536]; in.read(block, sizeof block) || in.gcount() > 0;) {
     text.append(block, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > file_size_limit) fail("expected a scene file of at most 256 MiB, got a larger one");
+    if (text.size() > file_size_limit) refuse_large();
   }
   if (in.bad()) fail(std::string("cannot read the scene file: ") + std::strerror(errno));
   return json_parse(file, text);

@@ -16,18 +16,37 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t room_for_kernels = 64u << 20;
 
 /// Raised when entries of another make would be misread.
-constexpr const char* format = "causticl kernels 1";
+constexpr const char* format = "causticl kernels 2";
 
 fs::path cache_folder() {
   const auto variable = [](const char* name) {
     const char* value = std::getenv(name);
     return fs::path(value ? value : "");
   };
-  if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return fs::absolute(own);
+  if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return own;
   // The XDG specification has relative paths ignored.
   if (const fs::path shared = variable("XDG_CACHE_HOME"); shared.is_absolute()) return shared / "causticl";
-  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache" / "causticl";
+  if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache" / "causticl";
   return {};
+}
+
+/// A folder of this run in the first place that has room and that no other user can change. Throws UserError
+/// with what is wrong with the first.
+void make_temporary_folder(std::optional<RunFolder>& run) {
+  std::string first_fault;
+  const char* wanted = std::getenv("TMPDIR");
+  for (const fs::path& parent :
+       {fs::path(wanted ? wanted : ""), fs::path("/tmp"), fs::path("/var/tmp"), fs::path("/dev/shm")}) {
+    std::error_code error;
+    if (!parent.is_absolute() || !fs::is_directory(parent, error)) continue;
+    try {
+      run.emplace(parent, room_for_kernels);
+      return;
+    } catch (const UserError& fault) {
+      if (first_fault.empty()) first_fault = fault.what();
+    }
+  }
+  throw UserError(first_fault.empty() ? "there is no temporary folder" : first_fault);
 }
 
 /// Whether the environment sets the variable, and to something.
@@ -87,32 +106,45 @@ cl::Program build_from_source(const cl::Context& context, const cl::Device& devi
 }
 
 KernelCache::KernelCache(bool keep, std::uint64_t limit) {
-  pocl_is_the_users_ = is_set("POCL_CACHE_DIR") || is_set("POCL_KERNEL_CACHE");
+  const bool has_folder = is_set("POCL_CACHE_DIR") && is_users_folder_trusted();
+  pocl_is_the_users_ = has_folder || is_set("POCL_KERNEL_CACHE");
   open(keep, limit);
-  if (run_ && !pocl_is_the_users_) setenv("POCL_CACHE_DIR", run_->path().c_str(), 1);
+  // PoCL's own default is a folder that others may have made, where there is no home.
+  sets_pocl_folder_ = run_ && !has_folder;
+  if (sets_pocl_folder_) setenv("POCL_CACHE_DIR", run_->path().c_str(), 1);
 }
 
 KernelCache::~KernelCache() {
   store_compiled();
-  if (run_ && !pocl_is_the_users_) unsetenv("POCL_CACHE_DIR");
+  if (sets_pocl_folder_) unsetenv("POCL_CACHE_DIR");
+}
+
+bool KernelCache::is_users_folder_trusted() {
+  try {
+    open_trusted_folder(std::getenv("POCL_CACHE_DIR"), FolderUse::own);
+    return true;
+  } catch (const UserError& error) {
+    notices_.push_back("POCL_CACHE_DIR is not used: " + std::string(error.what()));
+    return false;
+  }
 }
 
 void KernelCache::open(bool keep, std::uint64_t limit) {
   const fs::path folder = cache_folder();
   std::string fault = "neither CAUSTICL_CACHE_DIR nor HOME is set";
   if (keep && !folder.empty()) try {
-      run_.emplace(folder, room_for_kernels);
       store_.emplace(folder, limit);
+      run_.emplace(store_->path(), room_for_kernels);
       return;
     } catch (const UserError& error) {
       fault = error.what();
+      store_.reset();
     }
   if (keep)
     notices_.push_back("kernels are not kept for the next run: " + fault +
-                       "; set CAUSTICL_CACHE_DIR to a folder with room, or say --no-cache");
+                       "; set CAUSTICL_CACHE_DIR to a folder of your own with room, or say --no-cache");
   try {
-    std::error_code error;
-    run_.emplace(fs::temp_directory_path(error), room_for_kernels);
+    make_temporary_folder(run_);
   } catch (const UserError& error) {
     no_run_folder_ = error.what();  // of which PoCL alone has need
   }

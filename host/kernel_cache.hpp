@@ -28,8 +28,9 @@ struct ProgramText {
 
 /// Compiled kernels in `$CAUSTICL_CACHE_DIR`, else `$XDG_CACHE_HOME/causticl`, else `~/.cache/causticl`. Must
 /// be made before the first call of OpenCL, since PoCL reads then where its files are, and must outlive every
-/// program. Where the user has set `POCL_CACHE_DIR` or `POCL_KERNEL_CACHE`, PoCL does as they say. Safe to
-/// call from any thread.
+/// program. Where the user has set `POCL_CACHE_DIR`, to a folder that no other user can change, or
+/// `POCL_KERNEL_CACHE`, PoCL does as they say. Compiled kernels are run as they are, so that a folder that
+/// others can change is not used. Safe to call from any thread.
 class KernelCache {
  public:
   /// `keep` false: nothing is taken from the folder and nothing put there.
@@ -62,11 +63,12 @@ class KernelCache {
   std::optional<RunFolder> run_;
   std::optional<KernelStore> store_;
   std::string no_run_folder_;  // why, where there is none
-  bool pocl_is_the_users_ = false;
+  bool pocl_is_the_users_ = false, sets_pocl_folder_ = false;
   std::map<std::string, PoclProgram> pocl_programs_;  // by key
   std::size_t reused_ = 0;
   std::vector<std::string> notices_;
 
+  bool is_users_folder_trusted();
   void open(bool keep, std::uint64_t limit);
   std::optional<KernelFiles> load(const std::string& key);
   void save(const std::string& key, const KernelFiles& files);

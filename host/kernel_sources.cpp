@@ -1,14 +1,23 @@
 #include "kernel_sources.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "error.hpp"
+#include "input_file.hpp"
 
 namespace causticl {
 namespace {
+
+/// Kernels run as native code.
+void refuse_if_open_to_all(const std::filesystem::path& path) {
+  std::error_code missing;
+  const auto permissions = std::filesystem::status(path, missing).permissions();
+  if (!missing && (permissions & std::filesystem::perms::others_write) != std::filesystem::perms::none)
+    throw UserError("--kernel-dir: all users may write to " + path.string() +
+                    ", and its kernels would run as native code; chmod o-w makes it yours");
+}
 
 std::string read_source(const std::string& name, const std::string& kernel_dir) {
   if (kernel_dir.empty()) {
@@ -17,10 +26,13 @@ std::string read_source(const std::string& name, const std::string& kernel_dir) 
     return found->second;
   }
   const auto path = std::filesystem::path(kernel_dir) / name;
-  std::ifstream in(path);
-  if (!in)
-    throw UserError("--kernel-dir: cannot read " + path.string() + "; expected a copy of the folder cl/");
-  return {std::istreambuf_iterator<char>(in), {}};
+  refuse_if_open_to_all(kernel_dir);
+  refuse_if_open_to_all(path);
+  try {
+    return read_input(path.string(), "a kernel source", 16u << 20);
+  } catch (const UserError& error) {
+    throw UserError("--kernel-dir: " + std::string(error.what()) + "; expected a copy of the folder cl/");
+  }
 }
 
 void append_flat(std::string& out, const std::string& name, const std::string& text,

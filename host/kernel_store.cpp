@@ -1,16 +1,14 @@
 #include "kernel_store.hpp"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-
-#include "output_file.hpp"
+#include <ctime>
+#include <memory>
+#include <vector>
 
 namespace causticl {
 namespace {
@@ -18,108 +16,80 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* extension = ".kernels";
-constexpr std::size_t checksum_size = 16;
 
-/// XXH3, 128 bits, in the order of bytes that is the same on every machine.
-std::array<std::uint8_t, checksum_size> checksum(const void* data, std::size_t size) {
-  XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits(data, size));
-  std::array<std::uint8_t, checksum_size> result;
-  std::memcpy(result.data(), canonical.digest, checksum_size);
-  return result;
-}
-
-std::optional<std::vector<std::uint8_t>> read_bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return {};
-  return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(in), {});
-}
-
-/// MessagePack, after its checksum.
-std::string packed(const KernelFiles& files) {
-  nlohmann::json entry = nlohmann::json::array();
-  for (const auto& file : files) entry.push_back({file.name, nlohmann::json::binary(file.bytes)});
-  const auto body = nlohmann::json::to_msgpack(entry);
-  const auto sum = checksum(body.data(), body.size());
-  std::string bytes(sum.begin(), sum.end());
-  bytes.append(body.begin(), body.end());
-  return bytes;
-}
-
-/// Throws nlohmann::json::exception for what packed() did not make.
-KernelFiles unpacked(const std::uint8_t* body, std::size_t size) {
-  KernelFiles files;
-  for (const auto& file : nlohmann::json::from_msgpack(body, body + size)) {
-    const std::vector<std::uint8_t>& bytes = file.at(1).get_binary();
-    files.push_back({file.at(0).get<std::string>(), bytes});
-  }
-  return files;
-}
-
-bool checksum_holds(const std::vector<std::uint8_t>& bytes) {
-  if (bytes.size() < checksum_size) return false;
-  const auto sum = checksum(bytes.data() + checksum_size, bytes.size() - checksum_size);
-  return std::equal(sum.begin(), sum.end(), bytes.begin());
-}
-
-}  // namespace
-
-KernelStore::KernelStore(fs::path folder, std::uint64_t limit) : folder_(std::move(folder)), limit_(limit) {}
-
-fs::path KernelStore::file_of(const std::string& key) const {
+std::string name_of(const std::string& key) {
   std::string name;
   for (const std::uint8_t byte : checksum(key.data(), key.size())) {
     constexpr const char* digits = "0123456789abcdef";
     name += {digits[byte >> 4], digits[byte & 15]};
   }
-  return folder_ / (name + extension);
+  return name + extension;
 }
 
+std::vector<std::string> names_in(int folder) {
+  std::vector<std::string> names;
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(
+      fdopendir(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)), closedir);
+  if (!listing) return names;
+  while (const dirent* entry = readdir(listing.get())) names.emplace_back(entry->d_name);
+  return names;
+}
+
+}  // namespace
+
+KernelStore::KernelStore(const fs::path& folder, std::uint64_t limit)
+    : folder_(open_trusted_folder(folder, FolderUse::own)), limit_(limit) {}
+
+fs::path KernelStore::file_of(const std::string& key) const { return folder_.path / name_of(key); }
+
 std::optional<KernelFiles> KernelStore::load(const std::string& key, std::string& damage) const {
-  const fs::path file = file_of(key);
-  const auto bytes = read_bytes(file);
-  if (!bytes) return {};
-  std::error_code error;
-  try {
-    if (checksum_holds(*bytes)) {
+  const std::string name = name_of(key);
+  const int folder = folder_.descriptor.get();
+  std::string fault;
+  const auto bytes = read_own_file(folder, name, default_limit, fault);
+  if (!bytes && fault.empty()) return {};
+  if (bytes) {
+    if (auto files = unpack_kernels(*bytes)) {
       // Its age is the time of its last use.
-      fs::last_write_time(file, fs::file_time_type::clock::now(), error);
-      return unpacked(bytes->data() + checksum_size, bytes->size() - checksum_size);
+      utimensat(folder, name.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+      return files;
     }
-  } catch (const nlohmann::json::exception&) {
-    // Another format under a checksum that holds: as good as damaged.
+    fault = "is damaged";
   }
-  damage = "the kernel cache's " + file.string() + " is damaged; its kernels are built anew";
-  fs::remove(file, error);
+  damage = "the kernel cache's " + file_of(key).string() + " " + fault + "; its kernels are built anew";
+  unlinkat(folder, name.c_str(), 0);
   return {};
 }
 
 void KernelStore::save(const std::string& key, const KernelFiles& files) const {
-  write_file(file_of(key).string(), packed(files));
+  write_own_file(folder_, name_of(key), pack_kernels(files));
   remove_oldest();
 }
 
 void KernelStore::remove_oldest() const {
   struct Entry {
-    fs::file_time_type used;
+    timespec used;
     std::uint64_t size;
-    fs::path file;
+    std::string name;
   };
+  const int folder = folder_.descriptor.get();
+  const std::time_t an_hour_ago = std::time(nullptr) - 3600;
   std::vector<Entry> entries;
   std::uint64_t total = 0;
-  std::error_code error;  // another process may remove them at the same time
-  for (const auto& found : fs::directory_iterator(folder_, error)) {
-    if (is_left_half_written(found.path())) fs::remove(found.path(), error);
-    if (found.path().extension() != extension) continue;
-    const auto used = found.last_write_time(error);
-    const std::uint64_t size = error ? 0 : found.file_size(error);
-    if (error) continue;
-    entries.push_back({used, size, found.path()});
-    total += size;
+  for (const auto& name : names_in(folder)) {
+    struct stat status {};  // another process may remove them at the same time
+    if (fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
+    // Left by a process that was killed while it wrote: none takes an hour.
+    if (is_own_temporary(name) && status.st_mtim.tv_sec < an_hour_ago) unlinkat(folder, name.c_str(), 0);
+    if (fs::path(name).extension() != extension) continue;
+    entries.push_back({status.st_mtim, static_cast<std::uint64_t>(status.st_size), name});
+    total += entries.back().size;
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.used.tv_sec, a.used.tv_nsec) < std::pair(b.used.tv_sec, b.used.tv_nsec);
+  });
   for (std::size_t i = 0; i < entries.size() && total > limit_; ++i) {
-    fs::remove(entries[i].file, error);
+    unlinkat(folder, entries[i].name.c_str(), 0);
     total -= entries[i].size;
   }
 }

@@ -5,31 +5,25 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "kernel_entry.hpp"
+#include "private_folder.hpp"
 
 namespace causticl {
 
-/// A file that a driver made of a program: its path in the driver's folder, or any name that the caller
-/// knows.
-struct KernelFile {
-  std::string name;
-  std::vector<std::uint8_t> bytes;
-};
-
-/// What was compiled of one program.
-using KernelFiles = std::vector<KernelFile>;
-
 /// A folder with an entry a program, found by a text that says all that its kernels depend on. An entry
-/// appears whole or not at all, and is used only if its checksum holds. Any number of processes may use one
-/// folder.
+/// appears whole or not at all, and is used only if its checksum holds and nobody but this user can have
+/// written it. Any number of processes may use one folder.
 class KernelStore {
  public:
   static constexpr std::uint64_t default_limit = 256u << 20;
 
-  /// `limit`: bytes of all entries, above which those go that were not used for longest.
-  explicit KernelStore(std::filesystem::path folder, std::uint64_t limit = default_limit);
+  /// `limit`: bytes of all entries, above which those go that were not used for longest. Throws UserError
+  /// where other users could change what is in the folder, and where it cannot be made.
+  explicit KernelStore(const std::filesystem::path& folder, std::uint64_t limit = default_limit);
 
-  /// The entry of `key`; none where there is none. One that is damaged is removed and described in `damage`.
+  /// The entry of `key`; none where there is none. One that is damaged, or that others can have written, is
+  /// removed and described in `damage`.
   std::optional<KernelFiles> load(const std::string& key, std::string& damage) const;
 
   /// Throws UserError where the folder cannot be written to.
@@ -37,8 +31,11 @@ class KernelStore {
 
   std::filesystem::path file_of(const std::string& key) const;
 
+  /// Without links.
+  const std::filesystem::path& path() const { return folder_.path; }
+
  private:
-  std::filesystem::path folder_;
+  OpenFolder folder_;
   std::uint64_t limit_;
   void remove_oldest() const;
 };

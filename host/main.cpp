@@ -106,7 +106,9 @@ int selftest(const Options& options) {
 int compare(const Options& options) {
   if (!options.error_map.empty()) check_output(options.error_map);
   if (!options.json.empty()) check_writable(options.json);
-  const Picture picture = read_rendered(options.picture), reference = read_rendered(options.reference);
+  const ImageLimits& limits = options.scene_options.image_limits;
+  const Picture picture = read_rendered(options.picture, limits);
+  const Picture reference = read_rendered(options.reference, limits.after(picture.rgb.size() / 3));
   if (picture.width != reference.width || picture.height != reference.height)
     throw UserError("the pictures differ in size: " + options.picture + " has " + size_text(picture) + ", " +
                     options.reference + " has " + size_text(reference) + "; expected two of one size");
@@ -175,6 +177,8 @@ int main(int argc, char** argv) {
     return fail(
         "the OpenCL call " + std::string(error.what()) + " failed with " + std::to_string(error.err()),
         fault_of_device);
+  } catch (const Interrupted&) {
+    return fail("interrupted before the first pass; there is no picture yet", interrupted);
   } catch (const std::bad_alloc&) {
     return fail("out of memory; a smaller --size or --photons needs less", fault_of_device);
   } catch (const std::exception& error) {

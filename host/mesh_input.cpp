@@ -1,12 +1,14 @@
 #include "mesh_input.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 
 #include "error.hpp"
+#include "input_file.hpp"
 
 namespace causticl {
 namespace {
@@ -20,16 +22,15 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' |
 }  // namespace
 
 MeshInput::MeshInput(const std::string& file) : file_(file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) fail_file("no such file");
-  if (std::filesystem::is_directory(status)) fail_file("is a folder; expected a mesh file");
-  if (!std::filesystem::is_regular_file(status)) fail_file("is not a regular file; expected a mesh file");
-  handle_.reset(std::fopen(file.c_str(), "rb"));
-  if (!handle_) fail_file(std::string("cannot be read: ") + std::strerror(errno));
-  size_ = std::filesystem::file_size(file, error);
-  if (error) fail_file("cannot be read: " + error.message());
-  if (size_ == 0) fail_file("is empty; expected a mesh");
+  const InputFile input = open_input(file, "a mesh");
+  size_ = input.size;
+  const int descriptor = dup(input.descriptor.get());
+  handle_.reset(fdopen(descriptor, "rb"));
+  if (!handle_) {
+    const std::string fault = std::strerror(errno);
+    if (descriptor >= 0) close(descriptor);
+    fail_file("cannot be read: " + fault);
+  }
   std::setvbuf(handle_.get(), nullptr, _IONBF, 0);
   buffer_.resize(block_size);
 }

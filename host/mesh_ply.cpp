@@ -68,6 +68,9 @@ class PlyReader {
 
   /// Refuses a count that the rest of the file cannot hold, before memory is asked for.
   void check_count() const {
+    if ((element_->name == "vertex" || element_->name == "face") && element_->count >= no_index)
+      input_.fail_file("the header declares " + std::to_string(element_->count) + " of element " +
+                       quoted(element_->name) + "; expected at most 4294967294");
     std::uint64_t smallest = 0;  // bytes of a record
     for (const Property& property : element_->properties)
       smallest += format_ == Format::ascii ? 2 : size_of(property.count_type.value_or(property.type));

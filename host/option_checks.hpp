@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace causticl {
@@ -31,6 +32,20 @@ inline std::optional<double> parse_share(std::string text, double below) {
   auto value = number<double>(text);
   if (value && percent) *value /= 100;
   return value && *value > 0 && *value < below ? value : std::nullopt;
+}
+
+/// "512M" or "4G" as bytes; without a letter they are bytes.
+inline std::optional<std::uint64_t> parse_bytes(std::string text) {
+  int shift = 0;
+  constexpr std::string_view units = "KMGT";
+  const auto unit = text.empty() ? units.npos : units.find(text.back());
+  if (unit != units.npos) {
+    shift = 10 * (static_cast<int>(unit) + 1);
+    text.pop_back();
+  }
+  const auto value = number<std::uint64_t>(text);
+  if (!value || *value == 0 || *value > std::uint64_t{1} << (50 - shift)) return {};
+  return *value << shift;
 }
 
 inline std::optional<std::pair<int, int>> parse_size(const std::string& text) {
@@ -67,6 +82,7 @@ inline const auto is_seconds = [](const std::string& text) {
 };
 inline const auto is_error = [](const std::string& text) { return parse_share(text, 10).has_value(); };
 inline const auto is_confidence = [](const std::string& text) { return parse_share(text, 1).has_value(); };
+inline const auto is_bytes = [](const std::string& text) { return parse_bytes(text).has_value(); };
 inline const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
 inline const auto is_override = [](const std::string& text) {
   const auto equals = text.find('=');

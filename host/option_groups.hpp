@@ -13,4 +13,7 @@ void add_selftest_options(CLI::App& app, Options& options);
 /// What `study` measures, for how long and where it goes.
 void add_study_options(CLI::App& app, Options& options);
 
+/// What the images that a command reads may cost.
+void add_image_options(CLI::App& app, Options& options);
+
 }  // namespace causticl

@@ -196,24 +196,29 @@ Options parse_options(int argc, const char* const* argv) {
   add_report_options(render, options);
   render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
                 exit_codes);
+  add_image_options(render, options);
   CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
   add_scene_options(info, options, texts);
+  add_image_options(info, options);
   CLI::App& explain =
       *app.add_subcommand("explain", "Say which effects a scene calls for, and what they cost");
   add_scene_options(explain, options, texts);
   add_explain_options(explain, options);
+  add_image_options(explain, options);
   add_device_options(explain, options);
   explain.footer(
       "A cost is the time of all kernels over that without the effect: the median of five pairs of\n"
       "renders and half the distance of the quartiles. Without --measure no device is asked for.");
   CLI::App& compare = *app.add_subcommand("compare", "Say how far a picture is from a reference");
   add_compare_options(compare, options);
+  add_image_options(compare, options);
   CLI::App& study =
       *app.add_subcommand("study", "Measure what accuracy costs in time, and recommend settings");
   add_scene_options(study, options, texts);
   add_study_options(study, options);
+  add_image_options(study, options);
   add_device_options(study, options);
   study.footer(
       "A study that was interrupted or killed goes on where it was when it is started again; a larger\n"

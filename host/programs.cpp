@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "error.hpp"
+#include "interruption.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -84,6 +85,7 @@ void Programs::work(const std::stop_token& stop) {
 void Programs::build(Build& build) {
   const auto start = std::chrono::steady_clock::now();
   try {
+    if (interruption_requested()) throw Interrupted();
     const cl::Program program = build_pass(device_, build.pass, options_);
     launch_once(device_, program);
     build.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+
+#include "leftovers.hpp"
+#include "private_folder.hpp"
 
 namespace causticl {
 
-/// A new folder within `parent`, for this user alone, removed with all that is in it by the destructor. Those
-/// that processes left behind that were killed are removed by the next that makes one beside them.
+/// A new folder within `parent`, for this user alone, removed with all that is in it by the destructor, or by
+/// a signal that ends the process. Those that this user's processes left behind that were killed are removed
+/// by the next that makes one beside them.
 class RunFolder {
  public:
-  /// Throws UserError where none can be made, or where less than `room` bytes are free.
+  /// Throws UserError where none can be made, where another user could put another folder in its place, or
+  /// where less than `room` bytes are free.
   RunFolder(const std::filesystem::path& parent, std::uintmax_t room);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
@@ -19,7 +25,8 @@ class RunFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;
+  Descriptor lock_;
+  std::unique_ptr<RemovedAtSignal> removed_at_signal_;
 };
 
 }  // namespace causticl

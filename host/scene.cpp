@@ -126,6 +126,7 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   json.check_keys(scene_keys);
 
   SceneLoader loader;
+  loader.image_limits = options.image_limits;
   Scene& scene = loader.scene;
   scene.file = file;
   if (const auto path = json.find("path")) scene.output = path->string();

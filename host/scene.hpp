@@ -167,6 +167,7 @@ struct SceneOptions {
   std::vector<Override> overrides;          // applied before anything is read
   std::optional<std::pair<int, int>> size;  // --size
   std::optional<Integrator> integrator;     // --integrator: refuses or allows what the file holds
+  ImageLimits image_limits;                 // --max-image-memory, of all images together
 };
 
 /// Loads a scene file with everything it names (meshes, images). Throws UserError with the file, the line,

@@ -47,7 +47,8 @@ int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list
 int SceneLoader::image(const JsonReader& json, bool srgb) {
   const std::string file = resolve(json, scene.file);
   return load_once(images, {file, srgb}, scene.images, json, [&] {
-    Image image = read_image(file, srgb);
+    Image image = read_image(file, srgb, image_limits);
+    image_limits = image_limits.after(image.rgba.size() / 4);
     // Textures are reflectances, also where their format holds brighter values.
     bool outside = false;
     for (float& value : image.rgba) {
@@ -63,7 +64,8 @@ Image SceneLoader::radiance_map(const JsonReader& json) {
   const std::string file = resolve(json, scene.file);
   Image image;
   try {
-    image = read_image(file, true);
+    image = read_image(file, true, image_limits);
+    image_limits = image_limits.after(image.rgba.size() / 4);
   } catch (const UserError& error) {
     json.fail(error.what());
   }

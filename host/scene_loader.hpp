@@ -19,6 +19,7 @@ struct SceneLoader {
   std::map<std::pair<std::string, bool>, int> images;  // resolved path and srgb, into scene.images
   std::map<std::string, int> meshes;                   // resolved path, into scene.meshes
   std::set<std::string> said;                          // texts of notices so far
+  ImageLimits image_limits;                            // what is left for further images
 
   /// Tells the user `text`, with the place where it came up first.
   void notice(const JsonReader& where, const std::string& text);

@@ -124,7 +124,7 @@ SelftestProcesses::~SelftestProcesses() {
   close_if_open(groups_in_);
   close_if_open(groups_out_);
   for (const auto& helper : helpers_) {
-    kill(helper.process, SIGKILL);  // it may be in the middle of a check that nobody waits for any more
+    kill(helper.process, SIGTERM);  // it may be in the middle of a check that nobody waits for any more
     end(helper);
   }
 }
@@ -137,7 +137,7 @@ void SelftestProcesses::end(const Helper& helper) {
 
 void SelftestProcesses::help(const std::string& spec, bool keep_kernels, int rows) const {
 #ifdef __linux__
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a kernel that does not end shall not outlive who asked for it
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // a kernel that does not end shall not outlive who asked for it
 #endif
   try {
     // Made with the first group: a device that needs no helpers gives them none.

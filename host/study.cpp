@@ -157,9 +157,13 @@ StudyOutcome run_study(const Options& options, KernelCache& kernels,
   StudySession session(options, kernels, say, interrupted);
   StudyOutcome outcome;
   plan(session);
-  if (!interrupted()) make_reference(session);
-  outcome.interrupted = interrupted() || !measure_short_runs(session) || !measure_combined(session) ||
-                        !measure_long_runs(session);
+  try {
+    if (!interrupted()) make_reference(session);
+    outcome.interrupted = interrupted() || !measure_short_runs(session) || !measure_combined(session) ||
+                          !measure_long_runs(session);
+  } catch (const Interrupted&) {
+    outcome.interrupted = true;
+  }
   session.save();
   if (!session.study.reference) return outcome;
   const StudyAnalysis analysis = analyse(session.study);

@@ -34,7 +34,7 @@ double usable_mean(const Picture& picture, const std::string& name) {
 void read_given(StudySession& session) {
   const std::string& file = session.options.study.reference;
   const Study& study = session.study;
-  session.reference = read_rendered(file);
+  session.reference = read_rendered(file, session.options.scene_options.image_limits);
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };

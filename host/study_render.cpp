@@ -50,6 +50,7 @@ Options StudyRenderer::options_of(const std::vector<std::string>& words) const {
   Options result = parse_options(static_cast<int>(arguments.size()), arguments.data());
   result.threads = options_.threads;
   result.kernel_dir = options_.kernel_dir;
+  result.scene_options.image_limits = options_.scene_options.image_limits;
   return result;
 }
 

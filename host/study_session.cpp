@@ -4,9 +4,9 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "error.hpp"
+#include "input_file.hpp"
 
 namespace causticl {
 namespace {
@@ -23,9 +23,7 @@ std::string today() {
 }
 
 std::string bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw UserError(file + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return read_input(file, "an input of the study", std::uint64_t{1} << 32);
 }
 
 /// Of all that decides the picture: the file, and the meshes and images that it names.

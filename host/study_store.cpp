@@ -3,12 +3,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "error.hpp"
+#include "input_file.hpp"
 #include "output_file.hpp"
 
 namespace causticl {
@@ -230,10 +230,7 @@ std::optional<Study> read_study(const std::string& folder) {
   }
   const std::string file = (fs::path(folder) / "study.json").string();
   if (!fs::exists(file)) return {};
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw UserError(file + ": cannot be read");
-  return study_from_json(file, text);
+  return study_from_json(file, read_input(file, "a study", 64u << 20));
 }
 
 std::string fingerprint(const std::string& bytes, const std::string& before) {

@@ -96,7 +96,7 @@ TEST_CASE("scene files that cannot be read get one line") {
     CHECK(folder.message_of(folder.path("good.json")) ==
           "good.json: cannot read the scene file: Permission denied");
   CHECK(folder.message_of("/dev/zero") ==
-        "/dev/zero: expected a scene file of at most 256 MiB, got a larger one");
+        "/dev/zero: expected a scene file of at most 32 MiB, got a larger one");
   CHECK(folder.message_of("/dev/null") == "/dev/null:1: expected a scene, got an empty file");
 }
 

@@ -126,7 +126,7 @@ TEST_CASE("a folder that cannot be written to is a note, not an end") {
   folder.write("file", "");
   const Finished run = render(folder, "a.pfm", "file/cache");
   CHECK_THAT(run.errors, Contains("note: kernels are not kept for the next run: ") &&
-                             Contains("file/cache: cannot be made a folder"));
+                             Contains("file: cannot be made a folder: there is a file of this name"));
   CHECK_THAT(run.output, Contains(none_kept));
   const std::string path = folder.path("");
   const Environment environment = kept_in(folder);
