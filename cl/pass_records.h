@@ -66,7 +66,8 @@ typedef struct {
 } AimCell;
 CHECK_SIZE(AimCell, 12);
 
-// Counts that kernels add to; each wraps at 2^32 and is read as differences.
+// Counts that kernels add to; each wraps at 2^32 and is read as differences. Rays, of which a pass may have more, have
+// upper bits besides.
 typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
   uint indirect;       // those of them that are marked INDIRECT_PHOTON
@@ -76,7 +77,8 @@ typedef struct {
   uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds
   uint unresolved;     // rays with a hit on a revolved curve whose root could not be told from its neighbours
   uint traversal_bound;  // rays whose walk through the tree was cut short
+  uint rays_high;      // how often `rays` has wrapped
 } Counters;
-CHECK_SIZE(Counters, 32);
+CHECK_SIZE(Counters, 36);
 
 #endif

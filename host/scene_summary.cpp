@@ -5,7 +5,9 @@
 #include <set>
 #include <sstream>
 
+#include "printable.hpp"
 #include "report.hpp"
+#include "scene_output.hpp"
 
 namespace causticl {
 namespace {
@@ -121,7 +123,7 @@ void bounds_add(Bounds& bounds, const Scene& scene, const Object& object) {
 
 void print_image(std::ostream& text, const Scene& scene) {
   text << "image       " << scene.width << " x " << scene.height << " pixels";
-  if (!scene.output.empty()) text << ", to " << scene.output;
+  if (!scene.output.empty()) text << ", to " << scene_output(scene).file;
   text << "\n";
 }
 
@@ -182,7 +184,7 @@ void print_objects(std::ostream& text, const Scene& scene) {
   }
   for (const auto& [index, number] : uses) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
-    text << "  mesh      " << mesh.file << ": " << count(mesh.triangles(), "triangle");
+    text << "  mesh      " << printable_line(mesh.file) << ": " << count(mesh.triangles(), "triangle");
     if (number > 1) text << ", used " << number << " times";
     text << "\n";
   }
@@ -219,7 +221,7 @@ void print_materials(std::ostream& text, const Scene& scene) {
       continue;
     }
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-    text << "  image     " << image.file << ": " << image.width << " x " << image.height
+    text << "  image     " << printable_line(image.file) << ": " << image.width << " x " << image.height
          << (texture.bilinear ? ", bilinear" : ", nearest") << "\n";
   }
 }
@@ -241,7 +243,7 @@ std::string delta_light_line(const DeltaLight& light) {
 
 std::string environment_line(const Environment& environment) {
   std::string line = environment.pointer + ": environment ";
-  if (!environment.map.file.empty()) line += environment.map.file + ", ";
+  if (!environment.map.file.empty()) line += printable_line(environment.map.file) + ", ";
   return line + std::to_string(environment.map.width) + " x " + std::to_string(environment.map.height) +
          " texels";
 }
@@ -276,7 +278,7 @@ void print_bounds(std::ostream& text, const Scene& scene) {
 
 std::string scene_summary(const Scene& scene) {
   std::ostringstream text;
-  text << "scene       " << scene.file << "\n";
+  text << "scene       " << printable_line(scene.file) << "\n";
   print_image(text, scene);
   print_integrator(text, scene);
   print_camera(text, scene.camera);
@@ -286,7 +288,7 @@ std::string scene_summary(const Scene& scene) {
   print_medium(text, scene.medium);
   print_emitters(text, scene);
   print_bounds(text, scene);
-  for (const auto& notice : scene.notices) text << "note        " << notice << "\n";
+  for (const auto& notice : scene.notices) text << "note        " << printable_line(notice) << "\n";
   return text.str();
 }
 

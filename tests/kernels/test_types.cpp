@@ -157,6 +157,7 @@ const std::vector<Field> fields{
     FIELD(Counters, saturated),
     FIELD(Counters, unresolved),
     FIELD(Counters, traversal_bound),
+    FIELD(Counters, rays_high),
 };
 
 }  // namespace
