@@ -172,8 +172,9 @@ Options parse_options(int argc, const char* const* argv) {
   add_method_options(render, options, texts);
   add_device_options(render, options, true);
   add_report_options(render, options);
-  render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
-                exit_codes);
+  render.footer(
+      "Ctrl-C, SIGTERM and SIGHUP finish the pass and write the image; a second one stops at once.\n" +
+      exit_codes);
   CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");

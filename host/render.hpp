@@ -58,9 +58,9 @@ struct Progress {
   std::optional<double> error;         // estimated, of the picture; none where it is not known yet
   // Until half that error; infinite where there is no end in sight, none while the trend is not known.
   std::optional<double> seconds_to_half;
-  std::uint64_t photons = 0, rays = 0;  // so far
-  double pass_seconds = 0;              // of the passes alone, without start-up, writing and snapshots
-  std::optional<double> wanted_error;   // at which it ends
+  std::uint64_t photons = 0, rays = 0;      // so far
+  double pass_seconds = 0;                  // of the passes alone, without start-up, writing and snapshots
+  std::optional<double> wanted_error = {};  // at which it ends
 };
 
 /// A pass and its program.
