@@ -21,10 +21,17 @@ INLINE float luminance(float red, float green, float blue) { return 0.2126f * re
 // left out, signs are no longer those of the halves, and tell an error as large as that of independent numbers.
 INLINE float sign_of_estimate(uint index) { return half_of_passes(index) ? -1.0f : 1.0f; }
 
+// sqrt(a^2 + b^2), whatever their size.
+INLINE float root_of_squares(float a, float b) {
+  float larger = fmax(fabs(a), fabs(b)), ratio = fmin(fabs(a), fabs(b)) / larger;
+  return larger > 0 ? larger * sqrt(1 + ratio * ratio) : 0.0f;
+}
+
 // Adds the radiance estimate of pass `pass` to a pixel. One that is not finite, or with which the sum would not be, is
 // left out of the mean, and counted. `blur` is what the estimate's luminance owes to the size of its kernel, as far as
-// gather() can tell: see pass_film.cl for what becomes of it, of the spread, which grows as Welford (1962) has it, and of
-// the sum under changing signs.
+// gather() can tell: see pass_film.cl for what becomes of it, of the spread, which goes on as Welford (1962) has it, and of
+// the sum under changing signs. Spread and blur are kept as means: sums of floats would stop growing after 2^24 passes. The
+// spread is kept as a deviation: squares of very dim and very bright light are beyond floats.
 INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
                      volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
@@ -51,11 +58,14 @@ INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
   float estimates = (float)index, added = luminance(value[0], value[1], value[2]);
   if (estimates > 0) {
     float deviation = added - luminance(before[0], before[1], before[2]) / estimates;
-    pixel->spread = fmin(pixel->spread + deviation * deviation * (estimates / (estimates + 1)), FLT_MAX);
+    float part = 1 / (estimates + 1), kept = estimates * part;
+    pixel->spread = fmin(sqrt(kept) * root_of_squares(pixel->spread, deviation * sqrt(part)), FLT_MAX);
   }
   float alternating = pixel->alternating + sign_of_estimate(index) * added;
   pixel->alternating = clamp(alternating, -FLT_MAX, FLT_MAX);
-  if (isfinite(blur)) pixel->blur[half_of_passes(pass)] += (float)blur;
+  uint half_of_pass = half_of_passes(pass);
+  float added_blur = isfinite(blur) ? (float)blur : 0.0f;
+  pixel->blur[half_of_pass] += (added_blur - pixel->blur[half_of_pass]) / (passes_of_half(pass, half_of_pass) + 1.0f);
   return true;
 }
 

@@ -204,14 +204,14 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   uint end = min(index + (uint)get_local_size(0), paths);
   for (; index < end; index += WAVE_CAPACITY)
     rays += camera_paths(&scene, &params, index, min(index + WAVE_CAPACITY, end), visible_points, counters, pixels);
-  atomic_add(&counters->rays, rays);
+  count_rays(rays, counters);
 #else
   local uint group_rays[LARGEST_WORK_GROUP];
   if (index < paths) {
     SCENE_INIT(params);
     rays = camera_path(&scene, &params, index, visible_points, counters, pixels, 0, 0);
   }
-  group_add(rays, group_rays, &counters->rays);
+  group_count_rays(rays, group_rays, counters);
 #endif
 }
 

@@ -34,18 +34,35 @@ INLINE uint window_of(uint x, uint size, uint reach, uint *first) {
 
 INLINE float film_estimates(global const FilmPixel *pixel, uint passes) { return (float)(passes - pixel->left_out); }
 
-INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes) {
-  float estimates = film_estimates(pixel, passes);
-  return pixel->spread / (fmax(estimates, 1.0f) * fmax(estimates - 1, 1.0f));
+// Pixels to each side whose spread and blur pixel_error() reads: of windows of blur beside that of the pixel.
+#define ERROR_REACH (3 * REACH + 1)
+
+// A power of two that brings what pixel_error() squares near to 1: squares of very dim and very bright light are beyond
+// floats. Errors are computed in its units.
+INLINE float unit_around(global const FilmPixel *film, uint width, uint height, uint x, uint y) {
+  uint left, top, right = window_of(x, width, ERROR_REACH, &left), bottom = window_of(y, height, ERROR_REACH, &top);
+  float largest = 0;
+  for (uint j = top; j < bottom; ++j)
+    for (uint i = left; i < right; ++i) {
+      global const FilmPixel *pixel = film + j * width + i;
+      largest = fmax(largest, fmax(pixel->spread, fmax(fabs(pixel->blur[0]), fabs(pixel->blur[1]))));
+    }
+  return largest > 0 ? ldexp(1.0f, -clamp(ilogb(largest), -100, 100)) : 1.0f;
+}
+
+// In squared units, as all variances here.
+INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes, float unit) {
+  float spread = pixel->spread * unit;
+  return spread * spread / fmax(film_estimates(pixel, passes) - 1, 1.0f);
 }
 
 // The mean of variances over the window around (x, y).
 INLINE float variance_around(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint reach,
-                             uint passes) {
+                             uint passes, float unit) {
   uint left, top, right = window_of(x, width, reach, &left), bottom = window_of(y, height, reach, &top);
   float sum = 0;
   for (uint j = top; j < bottom; ++j)
-    for (uint i = left; i < right; ++i) sum += variance_of_mean(film + j * width + i, passes);
+    for (uint i = left; i < right; ++i) sum += variance_of_mean(film + j * width + i, passes, unit);
   return sum / ((right - left) * (bottom - top));
 }
 
@@ -60,15 +77,16 @@ INLINE float half_difference(global const FilmPixel *pixel, uint passes) {
 
 // The variance of means around (x, y) over what it were if a pixel's estimates were independent of each other. The
 // difference of halves tells it, since these are independent, but only where it is not that of the pixels beside.
-INLINE float share_of_variance(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes) {
+INLINE float share_of_variance(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes,
+                               float unit) {
   uint left, top, right = window_of(x, width, HALVES_REACH, &left), bottom = window_of(y, height, HALVES_REACH, &top);
   float squares = 0, variances = 0;
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) {
       global const FilmPixel *pixel = film + j * width + i;
-      float difference = half_difference(pixel, passes);
+      float difference = half_difference(pixel, passes) * unit;
       squares += difference * difference;
-      variances += variance_of_mean(pixel, passes);
+      variances += variance_of_mean(pixel, passes, unit);
     }
   float share = squares / variances;
   return variances > 0 && isfinite(share) ? share : 1.0f;
@@ -80,17 +98,17 @@ typedef struct {
   float mean, deviation;
   uint pixels;
 } Blur;
-INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, int x, int y, uint passes) {
+INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
   float first = 0, second = 0;
   Blur blur = {0, 0, 0};
   for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
     for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++blur.pixels) {
-      first += film[j * width + i].blur[0];
-      second += film[j * width + i].blur[1];
+      first += film[j * width + i].blur[0] * unit;
+      second += film[j * width + i].blur[1] * unit;
     }
   if (blur.pixels == 0) return blur;
-  first /= (float)blur.pixels * max(passes_of_half(passes, 0u), 1u);
-  second /= (float)blur.pixels * max(passes_of_half(passes, 1u), 1u);
+  first /= (float)blur.pixels;
+  second /= (float)blur.pixels;
   blur.mean = (first + second) / 2;
   blur.deviation = (first - second) / 2;
   return blur;
@@ -111,14 +129,15 @@ INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, i
 INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes,
                               bool even) {
   uint x = pixel % width, y = pixel / width;
-  float pooled = variance_around(film, width, height, x, y, REACH, passes);
-  float further = variance_around(film, width, height, x, y, BOUND_REACH, passes);
+  float unit = unit_around(film, width, height, x, y);
+  float pooled = variance_around(film, width, height, x, y, REACH, passes, unit);
+  float further = variance_around(film, width, height, x, y, BOUND_REACH, passes, unit);
   float bound = fmax(pooled, BOUND_PASSES / (BOUND_PASSES + passes) * further);
-  Blur own = blur_around(film, width, height, (int)x, (int)y, passes);
+  Blur own = blur_around(film, width, height, (int)x, (int)y, unit);
   float noise = 0, windows = 0;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
-      Blur beside = blur_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), passes);
+      Blur beside = blur_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), unit);
       noise += beside.deviation * beside.deviation;
       windows += beside.pixels > 0 ? 1.0f : 0.0f;
     }
@@ -126,10 +145,11 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   global const FilmPixel *p = film + pixel;
   PixelError error;
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
-  float share = even ? share_of_variance(film, width, height, x, y, passes) : 1.0f;
-  error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * variance_of_mean(p, passes) + NEIGHBOURS_SHARE * pooled));
-  error.pooled_noise = sqrt(share * bound);
-  error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f));
+  float share = even ? share_of_variance(film, width, height, x, y, passes, unit) : 1.0f;
+  float own_variance = variance_of_mean(p, passes, unit);
+  error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * own_variance + NEIGHBOURS_SHARE * pooled)) / unit;
+  error.pooled_noise = sqrt(share * bound) / unit;
+  error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f)) / unit;
   error.drawn = half_difference(p, passes);
   return error;
 }

@@ -145,7 +145,7 @@ kernel void trace_paths(SCENE_PARAMETERS, global FilmPixel *film, volatile globa
     SCENE_INIT(params);
     sample_pixel(&scene, &params, i, film, first_hits, &rays, counters);
   }
-  group_add(rays, group_rays, &counters->rays);
+  group_count_rays(rays, group_rays, counters);
 }
 
 #ifdef CAMERA_PACKETS

@@ -246,5 +246,5 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   Aim aim = {aim_cells, aim_landed};
   uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
                          counters);
-  atomic_add(&counters->rays, rays);
+  count_rays(rays, counters);
 }

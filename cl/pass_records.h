@@ -73,7 +73,8 @@ typedef struct {
 } AimCell;
 CHECK_SIZE(AimCell, 12);
 
-// Counts that kernels add to; each wraps at 2^32 and is read as differences.
+// Counts that kernels add to; each wraps at 2^32 and is read as differences. Rays, of which a pass may have more, have
+// upper bits besides.
 typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
   uint indirect;       // those of them that are marked INDIRECT_PHOTON
@@ -85,8 +86,8 @@ typedef struct {
   uint traversal_bound;  // rays whose walk through the tree was cut short
   uint media_full;     // paths in more dielectrics than they can keep
   uint media_left;     // boundaries of dielectrics that a path left without having entered
-  uint unused[2];
+  uint rays_high;      // how often `rays` has wrapped
 } Counters;
-CHECK_SIZE(Counters, 48);
+CHECK_SIZE(Counters, 44);
 
 #endif

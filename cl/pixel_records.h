@@ -18,8 +18,8 @@ typedef struct {
   float sum[3];
   float low[3];
   uint left_out;  // estimates that were not finite: the mean is over the others
-  float spread;   // sum of the squared deviations of the estimates' luminance from their mean
-  float blur[2];  // what luminance owes to the photons' kernel, summed over each half of the passes
+  float spread;   // standard deviation of the estimates' luminance from their mean, over their number
+  float blur[2];  // what luminance owes to the photons' kernel, the mean of each half of the passes
   float alternating;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
 } FilmPixel;
 CHECK_SIZE(FilmPixel, 44);

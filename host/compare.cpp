@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "error_estimate.hpp"
 #include "flip.hpp"
 #include "luminance.hpp"
 
@@ -64,15 +65,44 @@ double relative_error_quantile(const Picture& a, const Picture& b, double q) {
   return errors[rank];
 }
 
+std::optional<PictureNoise> noise_of(const Picture& picture) {
+  const auto errors = errors_of(picture);
+  const auto estimate = picture_error(errors, 0.9);
+  if (!estimate) return {};
+  double squares = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    // Light that is missing or too much has the colour of the pixel.
+    const float* rgb = &picture.rgb[3 * i];
+    const double grey = errors[i].luminance;
+    for (int c = 0; c < 3; ++c) {
+      const double noise = errors[i].noise * (grey > 0 ? static_cast<double>(rgb[c]) / grey : 1);
+      squares += noise * noise;
+    }
+  }
+  return PictureNoise{squares / static_cast<double>(picture.rgb.size()), estimate->noise};
+}
+
+void take_off_noise(Comparison& comparison, const Picture& reference) {
+  const auto noise = noise_of(reference);
+  if (!noise || !std::isfinite(noise->mse) || !std::isfinite(noise->error_90)) return;
+  comparison.noise_mse = noise->mse;
+  comparison.mse = std::max(0.0, comparison.measured_mse - noise->mse);
+  comparison.rmse = std::sqrt(comparison.mse);
+  comparison.relative_mse = comparison.mse / (comparison.reference_mean * comparison.reference_mean);
+  comparison.relative_rmse = std::sqrt(comparison.relative_mse);
+  const double measured = comparison.measured_error_90;
+  comparison.error_90 = std::sqrt(std::max(0.0, measured * measured - noise->error_90 * noise->error_90));
+}
+
 Comparison compare_pictures(const Picture& picture, const Picture& reference) {
   Comparison result;
   result.mean = mean_of(picture);
   result.reference_mean = mean_of(reference);
-  result.mse = mse_of(picture, reference);
+  result.mse = result.measured_mse = mse_of(picture, reference);
   result.rmse = std::sqrt(result.mse);
   result.relative_mse = result.mse / (result.reference_mean * result.reference_mean);
   result.relative_rmse = std::sqrt(result.relative_mse);
-  result.error_90 = relative_error_quantile(picture, reference, 0.9);
+  result.error_90 = result.measured_error_90 = relative_error_quantile(picture, reference, 0.9);
   result.calibration = calibration_of(picture, reference, 0.9);
   result.flip_pixels = flip_map(picture, reference);
   for (const float value : result.flip_pixels) result.flip += value;
@@ -111,6 +141,15 @@ std::string comparison_table(const Comparison& c) {
                   c.calibration->estimated, 100 * c.calibration->covered);
     table += text;
   }
+  if (c.noise_mse) {
+    std::snprintf(text, sizeof text,
+                  "The reference's own noise, an RMSE of %.4g by its channels error.*, is taken off of MSE, "
+                  "RMSE and the\n"
+                  "error of 90%% of the pixels (measured: RMSE %.4g, 90%% within %.4g), not of FLIP.%s\n",
+                  std::sqrt(*c.noise_mse), std::sqrt(c.measured_mse), c.measured_error_90,
+                  c.mse > 0 ? "" : " The pictures\ndiffer by no more than that noise.");
+    table += text;
+  }
   return table;
 }
 
@@ -126,6 +165,11 @@ std::string comparison_json(const Comparison& c) {
   if (c.calibration) {
     object["estimated_error_90"] = c.calibration->estimated;
     object["covered_90"] = c.calibration->covered;
+  }
+  if (c.noise_mse) {
+    object["reference_noise_mse"] = *c.noise_mse;
+    object["measured_mse"] = c.measured_mse;
+    object["measured_error_90"] = c.measured_error_90;
   }
   return object.dump(2) + "\n";
 }

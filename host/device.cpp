@@ -7,6 +7,8 @@
 #include "driver_needs.hpp"
 #include "error.hpp"
 #include "leftovers.hpp"
+#include "printable.hpp"
+#include "spelling.hpp"
 #include "types.h"
 
 namespace causticl {
@@ -31,15 +33,16 @@ std::string type_name(cl_device_type type) {
 }
 
 DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
+  const auto text = [](const std::string& of_driver) { return printable_line(trimmed(of_driver)); };
   DeviceInfo info;
   info.platform = platform;
   info.device = device;
-  info.platform_name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
-  info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
-  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
-  info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
-  info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
-  info.opencl_version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+  info.platform_name = text(platform.getInfo<CL_PLATFORM_NAME>());
+  info.platform_version = text(platform.getInfo<CL_PLATFORM_VERSION>());
+  info.name = text(device.getInfo<CL_DEVICE_NAME>());
+  info.vendor = text(device.getInfo<CL_DEVICE_VENDOR>());
+  info.driver = text(device.getInfo<CL_DRIVER_VERSION>());
+  info.opencl_version = text(device.getInfo<CL_DEVICE_VERSION>());
   info.type = type_name(device.getInfo<CL_DEVICE_TYPE>());
   info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
@@ -94,7 +97,8 @@ DeviceInfo find_device(const std::string& spec) {
       if (lowered(device.name + " " + device.platform_name).find(wanted) != std::string::npos) return device;
   }
   throw UserError("--device " + spec + ": no such device among the " + std::to_string(devices.size()) +
-                  " found; expected an index, cpu, gpu or part of a name (see `causticl devices`)");
+                  " found; expected an index, cpu, gpu or part of a name (see `causticl devices`)" +
+                  did_you_mean(spec, {"cpu", "gpu", "all"}));
 }
 
 std::vector<DeviceInfo> find_devices(const std::string& spec) {

@@ -7,6 +7,7 @@
 #include "effects.h"
 #include "error.hpp"
 #include "object_triangles.hpp"
+#include "spelling.hpp"
 
 namespace causticl {
 namespace {
@@ -181,9 +182,12 @@ unsigned chosen_effects(const Effects& effects, const std::string& choice) {
   for (std::string key; std::getline(list, key, ',');) {
     const auto found =
         std::find_if(effects.begin(), effects.end(), [&](const Effect& effect) { return effect.key == key; });
-    if (found == effects.end())
+    if (found == effects.end()) {
+      std::vector<std::string> keys{"auto", "all"};
+      for (const auto& effect : effects) keys.push_back(effect.key);
       throw UserError("--effects: no effect is called '" + key + "'; expected auto, all, or a list of " +
-                      effect_keys(effects, EFFECT_ALL));
+                      effect_keys(effects, EFFECT_ALL) + did_you_mean(key, keys));
+    }
     bits |= found->bit;
   }
   for (const auto& effect : effects)

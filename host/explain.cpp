@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "printable.hpp"
+
 namespace causticl {
 namespace {
 
@@ -59,7 +61,7 @@ Explanation explain(const Scene& scene) {
 }
 
 std::string explanation_table(const Explanation& explanation) {
-  std::string text = explanation.scene + ", " + explanation.integrator;
+  std::string text = printable_line(explanation.scene) + ", " + explanation.integrator;
   if (!explanation.device.empty()) text += ", measured on " + explanation.device;
   text += "\n\n" + column("effect", 14) + column("called for by", 58) + "compiled into\n";
   for (const auto& [effect, passes, cost] : explanation.effects) {

@@ -47,6 +47,17 @@ bool holds_channels(const std::string& file);
 /// PFM. Writes to a temporary name in the same folder, then renames. Throws UserError.
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata);
 
+/// Whether what cannot be written may be lost, as a newer picture will follow, or is kept elsewhere.
+enum class Unwritable { lost, kept };
+
+struct UnwrittenPicture {
+  std::string file, fault;  // the fault names the file, and where its bytes are now
+};
+
+/// Writes the picture to every one of `files`, also where some fail. Returns those that failed.
+std::vector<UnwrittenPicture> write_pictures(const std::vector<std::string>& files, const Picture& picture,
+                                             const Metadata& metadata, Unwritable unwritable);
+
 /// Reads .pfm or .exr back as linear RGB, an EXR file with its channels error.*. Throws UserError.
 Picture read_picture(const std::string& file, const ImageLimits& limits = {});
 

@@ -28,6 +28,17 @@ unsigned char tone_map(float value) {
   return static_cast<unsigned char>(std::lround(255.0f * std::pow(clamped, 1 / 2.2f)));
 }
 
+std::string encoded(const std::string& file, const Picture& picture, const Metadata& metadata) {
+  const std::string extension = lower_extension(file);
+  try {
+    return extension == ".png"   ? encode_png(picture)
+           : extension == ".exr" ? encode_exr(picture, metadata)
+                                 : encode_pfm(picture);
+  } catch (const std::exception& error) {
+    throw UserError(file + ": cannot be written: " + error.what());
+  }
+}
+
 }  // namespace
 
 std::string encode_png(const Picture& picture) {
@@ -53,16 +64,19 @@ bool holds_channels(const std::string& file) { return lower_extension(file) == "
 
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata) {
   check_output(file);
-  std::string bytes;
-  try {
-    const std::string extension = lower_extension(file);
-    bytes = extension == ".png"   ? encode_png(picture)
-            : extension == ".exr" ? encode_exr(picture, metadata)
-                                  : encode_pfm(picture);
-  } catch (const std::exception& error) {
-    throw UserError(file + ": cannot be written: " + error.what());
-  }
-  write_file(file, bytes);
+  write_file(file, encoded(file, picture, metadata));
+}
+
+std::vector<UnwrittenPicture> write_pictures(const std::vector<std::string>& files, const Picture& picture,
+                                             const Metadata& metadata, Unwritable unwritable) {
+  std::vector<UnwrittenPicture> unwritten;
+  for (const auto& file : files) try {
+      const std::string bytes = encoded(file, picture, metadata);
+      unwritable == Unwritable::kept ? write_file_or_keep(file, bytes) : write_file(file, bytes);
+    } catch (const UserError& error) {
+      unwritten.push_back({file, error.what()});
+    }
+  return unwritten;
 }
 
 }  // namespace causticl

@@ -81,9 +81,10 @@ class CounterTotals {
  public:
   /// Counts from this reading on.
   void start_from(const Counters& now) { last_ = now; }
-  /// Takes a fresh reading; at most 2^32 - 1 events may have happened since the last.
+  /// Takes a fresh reading; at most 2^32 - 1 events of a kind may have happened since the last, and of rays
+  /// any number.
   void update(const Counters& now) {
-    rays += static_cast<uint>(now.rays - last_.rays);
+    rays += rays_of(now) - rays_of(last_);
     faults.non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
     faults.saturated += static_cast<uint>(now.saturated - last_.saturated);
     faults.unresolved += static_cast<uint>(now.unresolved - last_.unresolved);
@@ -97,6 +98,10 @@ class CounterTotals {
 
  private:
   Counters last_{};
+
+  static std::uint64_t rays_of(const Counters& counters) {
+    return std::uint64_t{counters.rays_high} << 32 | counters.rays;
+  }
 };
 
 }  // namespace causticl

@@ -12,8 +12,11 @@ namespace {
 
 volatile sig_atomic_t requested = 0, silent = 0;
 
-void remember(int) {
+void remember(int signal_number) {
   const int previous_errno = errno;
+  // A terminal that goes away hangs up twice: itself, and through its shell. The picture is still to be
+  // written.
+  if (signal_number == SIGHUP && requested) return;
   requested = 1;
   signal(SIGINT, end_at_signal);
   signal(SIGTERM, end_at_signal);
@@ -38,6 +41,9 @@ void interruption_listen(bool quiet) {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction inherited {};
+  sigaction(SIGHUP, nullptr, &inherited);
+  if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup(1) lets it be ignored
 }
 
 bool interruption_requested() { return requested != 0; }

@@ -1,10 +1,11 @@
 // causticl: the whole flow, one call a line.
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <new>
+#include <sstream>
 
 #include "compare.hpp"
+#include "console.hpp"
 #include "error.hpp"
 #include "explain.hpp"
 #include "interruption.hpp"
@@ -13,6 +14,7 @@
 #include "progress.hpp"
 #include "render_setup.hpp"
 #include "report.hpp"
+#include "scene_output.hpp"
 #include "selftest_processes.hpp"
 #include "stability_checks.hpp"
 
@@ -33,7 +35,40 @@ void report_notices(KernelCache& kernels, const Say& say) {
 }
 
 /// A line of a command that shows no progress.
-void note(const std::string& text) { std::fprintf(stderr, "causticl: note: %s\n", text.c_str()); }
+void note(const std::string& text) { print_message(stderr, "note: " + text); }
+
+int fail(const std::string& message, ExitCode code) {
+  print_message(stderr, "error: " + message);
+  return code;
+}
+
+/// The last steps of a command, of which each is taken also where another fails.
+class LastSteps {
+ public:
+  template <typename Step>
+  void take(const Step& step) try {
+    step();
+  } catch (const UserError& error) {
+    failed(error.what());
+  }
+  void failed(const std::string& fault) { code_ = fail(fault, fault_of_input); }
+
+  /// `code` where all went well.
+  int exit_code(int code = done) const { return code_ == done ? code : code_; }
+
+ private:
+  int code_ = done;
+};
+
+void write_json(const std::string& file, const std::string& text) {
+  if (!file.empty()) write_file(file, text);
+}
+
+std::vector<std::string> written(std::vector<std::string> outputs,
+                                 const std::vector<UnwrittenPicture>& unwritten) {
+  for (const auto& [file, fault] : unwritten) std::erase(outputs, file);
+  return outputs;
+}
 
 int render(const Options& options) {
   Scene scene = load_scene(options.scene, options.scene_options);
@@ -43,6 +78,7 @@ int render(const Options& options) {
 
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
+  if (options.outputs.empty()) progress.note(scene_output(scene).notice);
   KernelCache kernels(options.keep_kernels);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   std::vector<std::unique_ptr<Device>> opened;
@@ -59,10 +95,12 @@ int render(const Options& options) {
       [&](const std::string& text) { progress.note(text); }, interruption_requested);
 
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
-  progress.finish(outputs, result.statistics);
-  if (options.stats) std::fputs(statistics_table(result.statistics).c_str(), stdout);
-  if (!options.stats_json.empty()) write_file(options.stats_json, statistics_json(result.statistics));
-  return result.statistics.stop == StopReason::interrupted ? interrupted : done;
+  progress.finish(written(outputs, result.unwritten), result.statistics);
+  LastSteps last;
+  for (const auto& [file, fault] : result.unwritten) last.failed(fault);
+  last.take([&] { write_json(options.stats_json, statistics_json(result.statistics)); });
+  if (options.stats) last.take([&] { print_output(statistics_table(result.statistics)); });
+  return last.exit_code(result.statistics.stop == StopReason::interrupted ? interrupted : done);
 }
 
 int explain(const Options& options) {
@@ -72,14 +110,14 @@ int explain(const Options& options) {
   if (options.measure) {
     KernelCache kernels(options.keep_kernels);
     Device device(find_device(options.device), options.threads, &kernels);
-    measure_effects(explanation, scene, device, render_options(options, {}), [](const std::string& effect) {
-      std::fprintf(stderr, "causticl: measuring %s\n", effect.c_str());
-    });
+    measure_effects(explanation, scene, device, render_options(options, {}),
+                    [](const std::string& effect) { print_message(stderr, "measuring " + effect); });
     report_notices(kernels, note);
   }
-  std::fputs(explanation_table(explanation).c_str(), stdout);
-  if (!options.json.empty()) write_file(options.json, explanation_json(explanation));
-  return done;
+  LastSteps last;
+  last.take([&] { write_json(options.json, explanation_json(explanation)); });
+  last.take([&] { print_output(explanation_table(explanation)); });
+  return last.exit_code();
 }
 
 int selftest(const Options& options) {
@@ -90,17 +128,14 @@ int selftest(const Options& options) {
   KernelCache kernels(options.keep_kernels);
   const DeviceInfo device_info = find_device(options.device);
   Device device(device_info, options.threads, &kernels);
-  std::fputs(selftest_heading(device_info, options.selftest).c_str(), stdout);
-  const auto rows = processes.run(device, [](const SelftestRow& row) {
-    std::fputs(selftest_line(row).c_str(), stdout);
-    std::fflush(stdout);
-  });
+  print_output(selftest_heading(device_info, options.selftest));
+  const auto rows = processes.run(device, [](const SelftestRow& row) { print_output(selftest_line(row)); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report_notices(kernels, note);
-  std::fputs(selftest_verdict(rows, options.selftest, seconds).c_str(), stdout);
-  if (!options.json.empty())
-    write_file(options.json, selftest_json(device_info, rows, options.selftest, seconds));
-  return selftest_passed(rows) ? done : fault_of_device;
+  LastSteps last;
+  last.take([&] { write_json(options.json, selftest_json(device_info, rows, options.selftest, seconds)); });
+  last.take([&] { print_output(selftest_verdict(rows, options.selftest, seconds)); });
+  return selftest_passed(rows) ? last.exit_code() : fault_of_device;
 }
 
 int compare(const Options& options) {
@@ -112,28 +147,31 @@ int compare(const Options& options) {
   if (picture.width != reference.width || picture.height != reference.height)
     throw UserError("the pictures differ in size: " + options.picture + " has " + size_text(picture) + ", " +
                     options.reference + " has " + size_text(reference) + "; expected two of one size");
-  const Comparison comparison = compare_pictures(picture, reference);
-  std::fputs(comparison_table(comparison).c_str(), stdout);
+  Comparison comparison = compare_pictures(picture, reference);
+  take_off_noise(comparison, reference);
+  LastSteps last;
   if (!options.error_map.empty())
-    write_picture(options.error_map, error_map(comparison, picture.width, picture.height), {});
-  if (!options.json.empty()) write_file(options.json, comparison_json(comparison));
-  return done;
+    last.take(
+        [&] { write_picture(options.error_map, error_map(comparison, picture.width, picture.height), {}); });
+  last.take([&] { write_json(options.json, comparison_json(comparison)); });
+  last.take([&] { print_output(comparison_table(comparison)); });
+  return last.exit_code();
 }
 
 int study(const Options& options) {
   interruption_listen(options.quiet);
   const auto say = [&](const std::string& line) {
-    if (!options.quiet) std::fprintf(stderr, "causticl: %s\n", line.c_str());
+    if (!options.quiet) print_message(stderr, line);
   };
   KernelCache kernels(options.keep_kernels);
   const StudyOutcome outcome = run_study(options, kernels, say, interruption_requested);
   report_notices(kernels, say);
-  std::fputs(outcome.summary.c_str(), stdout);
+  print_output(outcome.summary);
   return outcome.interrupted ? interrupted : done;
 }
 
 int print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  print_output(text);
   return done;
 }
 
@@ -159,20 +197,25 @@ int run(const Options& options) {
   return print(options.text);
 }
 
-int fail(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "causticl: error: %s\n", message.c_str());
+/// The first line of `message`, and the log of a compiler that may follow it.
+int fail_with_log(const std::string& message, ExitCode code) {
+  std::istringstream lines(message);
+  std::string line;
+  for (bool first = true; std::getline(lines, line); first = false)
+    print_message(stderr, first ? "error: " + line : "  " + line);
   return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  console_start();
   try {
     return run(parse_options(argc, argv));
   } catch (const UserError& error) {
     return fail(error.what(), fault_of_input);
   } catch (const DeviceError& error) {
-    return fail(error.what(), fault_of_device);
+    return fail_with_log(error.what(), fault_of_device);
   } catch (const cl::Error& error) {
     return fail(
         "the OpenCL call " + std::string(error.what()) + " failed with " + std::to_string(error.err()),

@@ -2,37 +2,23 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "option_values.hpp"
+#include "spelling.hpp"
 
 namespace causticl {
 
 constexpr int largest_int = 2147483647;
 constexpr int largest_extent = 65536;  // pixels of an edge
-
-/// The whole of `text` as a number, if it is one.
-template <typename T>
-std::optional<T> number(const std::string& text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || text.empty()) return {};
-  return value;
-}
-
-/// "2%" or "0.02" as a share between 0 and `below`.
-inline std::optional<double> parse_share(std::string text, double below) {
-  const bool percent = !text.empty() && text.back() == '%';
-  if (percent) text.pop_back();
-  auto value = number<double>(text);
-  if (value && percent) *value /= 100;
-  return value && *value > 0 && *value < below ? value : std::nullopt;
-}
 
 /// "512M" or "4G" as bytes; without a letter they are bytes.
 inline std::optional<std::uint64_t> parse_bytes(std::string text) {
@@ -76,22 +62,64 @@ inline CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
   return expect("a whole number from " + std::to_string(low) + " to " + std::to_string(high), accepts);
 }
 
-inline const auto is_seconds = [](const std::string& text) {
-  const auto value = number<double>(text);
-  return value && std::isfinite(*value) && *value > 0;
-};
-inline const auto is_error = [](const std::string& text) { return parse_share(text, 10).has_value(); };
-inline const auto is_confidence = [](const std::string& text) { return parse_share(text, 1).has_value(); };
 inline const auto is_bytes = [](const std::string& text) { return parse_bytes(text).has_value(); };
+/// A fraction between 0 and `below`; a number that lacks its percent sign is told the two spellings that
+/// work.
+inline CLI::Validator fraction(const std::string& expected, double below) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        if (parse_fraction(text, below)) return std::string();
+        const std::string spellings = fraction_spellings(text, below);
+        return "expected " + expected + ", found '" + text + "'" +
+               (spellings.empty() ? "" : "; write " + spellings);
+      },
+      "");
+}
+
+/// A positive time, which becomes its number of seconds.
+inline CLI::Validator duration() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const auto seconds = parse_duration(text);
+        if (!seconds)
+          return "expected a positive time in seconds, or as in 90s, 10m or 1h30m, found '" + text + "'";
+        char exact[32];
+        text.assign(exact, std::to_chars(exact, exact + sizeof exact, *seconds).ptr);
+        return std::string();
+      },
+      "");
+}
+
+/// One of `names`, in any case; `expected` lists them for people.
+inline CLI::Validator one_of(const std::string& expected, const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        const std::string wanted = CLI::detail::to_lower(text);
+        if (std::find(names.begin(), names.end(), wanted) == names.end())
+          return "expected " + expected + ", found '" + text + "'" + did_you_mean(text, names);
+        text = wanted;
+        return std::string();
+      },
+      "");
+}
+
+/// An integrator by any of its names, which becomes "sppm" or "pt".
+inline CLI::Validator integrator_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const auto integrator = parse_integrator(text);
+        if (!integrator)
+          return "expected sppm or pt, found '" + text + "'" + did_you_mean(text, integrator_names());
+        text = *integrator == Integrator::pt ? "pt" : "sppm";
+        return std::string();
+      },
+      "");
+}
+
 inline const auto is_size = [](const std::string& text) { return parse_size(text).has_value(); };
 inline const auto is_override = [](const std::string& text) {
   const auto equals = text.find('=');
   return equals != std::string::npos && equals > 0;
-};
-inline const auto is_integrator = [](const std::string& text) { return text == "sppm" || text == "pt"; };
-inline const auto is_precision = [](const std::string& text) { return text == "float" || text == "double"; };
-inline const auto is_triangle_test = [](const std::string& text) {
-  return text == "watertight" || text == "precomputed";
 };
 inline const auto is_folder = [](const std::string& text) {
   std::error_code unreadable;

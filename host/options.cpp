@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command_line_fault.hpp"
 #include "error.hpp"
 #include "option_checks.hpp"
 #include "option_groups.hpp"
@@ -13,6 +14,8 @@ const std::string exit_codes =
     "Exit codes: 0 done, 1 a fault of causticl, 2 of the input, 3 of the device,\n"
     "130 interrupted, with the image written.";
 
+constexpr double most_error = 10;  // as a fraction
+
 /// What CLI11 leaves as text.
 struct Texts {
   std::string integrator, size, precision, triangle_test, wanted_error, confidence;
@@ -23,7 +26,7 @@ struct Texts {
 void add_scene_options(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("SCENE", options.scene, "scene file (JSON)")->required()->type_name("");
   app.add_option("--integrator", texts.integrator, "in place of the scene's own")
-      ->check(expect("sppm or pt", is_integrator))
+      ->transform(integrator_name())
       ->type_name("sppm|pt");
   app.add_option("--size", texts.size, "pixels of the image, as in 640x480")
       ->check(
@@ -59,17 +62,19 @@ void add_output_options(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--samples", options.samples, "pt: samples a pixel, in place of the scene's own")
       ->check(count)
       ->type_name("N");
-  app.add_option("--time", options.time_limit, "stop after this time if the passes are not done before")
-      ->check(expect("a positive number of seconds", is_seconds))
-      ->type_name("SECONDS");
+  app.add_option(
+         "--time", options.time_limit,
+         "stop after this time if the passes are not done before:\nseconds, or as in 90s, 10m or 1h30m")
+      ->transform(duration())
+      ->type_name("TIME");
   app.add_option("--error", texts.wanted_error,
                  "stop when the picture's estimated error is this, as in 2%;\nthere is no limit of passes "
                  "then but --passes")
-      ->check(expect("a share between 0 and 1000%, as in 2% or 0.02", is_error))
+      ->check(fraction("a share between 0 and 1000%, as in 2% or 0.02", most_error))
       ->type_name("SHARE");
   app.add_option("--confidence", texts.confidence,
                  "the share of pixels that the error is to hold for; 90% by\ndefault")
-      ->check(expect("a share between 0 and 100%, as in 95% or 0.95", is_confidence))
+      ->check(fraction("a share between 0 and 100%, as in 95% or 0.95", 1))
       ->type_name("SHARE");
   app.add_option("--seed", options.seed, "1 by default; the same seed gives the same image to the bit")
       ->check(whole_number(0, 4294967295))
@@ -87,12 +92,12 @@ void add_method_options(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--precision", texts.precision,
                  "of the kernels' arithmetic; default: float. double needs a\n"
                  "device with fp64 and is slower: it is for measuring float")
-      ->check(expect("float or double", is_precision))
+      ->transform(one_of("float or double", {"float", "double"}))
       ->type_name("float|double");
   app.add_option("--triangle-test", texts.triangle_test,
                  "how rays meet triangles: watertight (the default) or by\n"
                  "precomputed transforms, which lets some pass at edges")
-      ->check(expect("watertight or precomputed", is_triangle_test))
+      ->transform(one_of("watertight or precomputed", {"watertight", "precomputed"}))
       ->type_name("TEST");
 }
 
@@ -150,33 +155,6 @@ void add_compare_options(CLI::App& app, Options& options) {
   app.add_option("--json", options.json, "write the numbers as one JSON object")->type_name("FILE");
 }
 
-/// "render, devices or info".
-std::string command_names(const CLI::App& app) {
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  std::string names;
-  for (std::size_t i = 0; i < commands.size(); ++i)
-    names += (i == 0 ? "" : i + 1 == commands.size() ? " or " : ", ") + commands[i]->get_name();
-  return names;
-}
-
-/// CLI11's own wording where it is clear, ours where it is not.
-std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
-  std::string text = error.what();
-  const auto commands = app.get_subcommands();
-  const auto extras = app.remaining(true);
-  const std::string option = text.substr(0, text.find(':'));
-  if (commands.empty())
-    text = (extras.empty() ? "no command given" : "unknown command or option " + extras.front()) +
-           "; expected " + command_names(app);
-  else if (dynamic_cast<const CLI::ExtrasError*>(&error))
-    text = "unknown option or argument " + (extras.empty() ? text : extras.front());
-  else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-    text = text.find("missing") != std::string::npos ? option + ": a value is missing"
-                                                     : option + ": given more than once";
-  return text + " (see `causticl " + (commands.empty() ? "" : commands.front()->get_name() + " ") +
-         "--help`)";
-}
-
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -194,8 +172,9 @@ Options parse_options(int argc, const char* const* argv) {
   add_method_options(render, options, texts);
   add_device_options(render, options, true);
   add_report_options(render, options);
-  render.footer("Ctrl-C and SIGTERM finish the pass and write the image; a second one stops at once.\n" +
-                exit_codes);
+  render.footer(
+      "Ctrl-C, SIGTERM and SIGHUP finish the pass and write the image; a second one stops at once.\n" +
+      exit_codes);
   add_image_options(render, options);
   CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
@@ -240,7 +219,7 @@ Options parse_options(int argc, const char* const* argv) {
     options.text = std::string(version.what()) + "\n";
     return options;
   } catch (const CLI::ParseError& error) {
-    throw UserError(explanation(error, app));
+    throw UserError(command_line_fault(error, app));
   }
 
   options.command = render.parsed()    ? Options::Command::render
@@ -261,8 +240,8 @@ Options parse_options(int argc, const char* const* argv) {
     throw UserError(
         "--triangle-test precomputed: its transforms are stored in single precision; expected --precision "
         "float");
-  if (!texts.wanted_error.empty()) options.wanted_error = parse_share(texts.wanted_error, 10);
-  if (!texts.confidence.empty()) options.confidence = *parse_share(texts.confidence, 1);
+  if (!texts.wanted_error.empty()) options.wanted_error = parse_fraction(texts.wanted_error, most_error);
+  if (!texts.confidence.empty()) options.confidence = *parse_fraction(texts.confidence, 1);
   if (!texts.size.empty()) options.scene_options.size = parse_size(texts.size);
   for (const auto& text : texts.overrides) {
     const auto equals = text.find('=');

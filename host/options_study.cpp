@@ -10,9 +10,10 @@ void add_study_options(CLI::App& app, Options& options) {
                  "folder for study.html, study.csv and study.json; default: the\n"
                  "scene's name with -study in the working directory")
       ->type_name("FOLDER");
-  app.add_option("--budget", study.budget, "time that all of it may take; 300 by default")
-      ->check(expect("a positive number of seconds", is_seconds))
-      ->type_name("SECONDS");
+  app.add_option("--budget", study.budget,
+                 "time that all of it may take, in seconds or as in 10m; 300 by\ndefault")
+      ->transform(duration())
+      ->type_name("TIME");
   std::string names;
   for (const Knob& knob : study_knobs()) names += (names.empty() ? "" : ", ") + std::string(knob.name);
   app.add_option("--knobs", study.knobs, "only these, with commas between them:\n" + wrapped(names, 52))

@@ -7,15 +7,27 @@
 namespace causticl {
 
 /// Throws UserError if `file` cannot be written: no folder, no permission, a read-only or full file system, a
-/// folder of this name.
+/// folder of this name. Removes what killed processes left half written beside it.
 void check_writable(const std::string& file);
 
-/// Writes to a temporary name in the folder of `file`, then renames; a link stays a link, and a device or
-/// pipe is written to directly. Throws UserError.
+/// The file that `file` leads to by links, whether it exists or not. Throws UserError where they lead
+/// nowhere.
+std::filesystem::path link_target(const std::string& file);
+
+/// Writes to a temporary name in the folder of `file`, then renames; a link stays a link, also one to a file
+/// that does not exist yet, and a device or pipe is written to directly. Throws UserError.
 void write_file(const std::string& file, const std::string& bytes);
 
-/// Whether `file` is half of what write_file() wrote in a process that was killed: by its name, and because
-/// no live one takes the hour that has passed since.
+/// As write_file(), but bytes that find no room there are kept under a new name beside `file`, or else in the
+/// temporary folder. Throws UserError, which says where they are.
+void write_file_or_keep(const std::string& file, const std::string& bytes);
+
+/// Whether `file` is half of what write_file() wrote in a process that was killed: by its name, because
+/// nobody holds its lock, and because no live process takes the hour that has passed since.
 bool is_left_half_written(const std::filesystem::path& file);
+
+/// Removes from `folder` what write_file() wrote in processes that were killed: what nobody holds the lock
+/// of.
+void remove_left_half_written(const std::filesystem::path& folder);
 
 }  // namespace causticl

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include "console.hpp"
+
 namespace causticl {
 namespace {
 
@@ -66,22 +68,54 @@ std::string percentage(double share) {
   return formatted("%.*f%%", percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0, percent);
 }
 
-std::string progress_text(const Progress& now, double photons_per_second, double rays_per_second, int width) {
-  // In the order of their worth: those at the end give way first.
-  std::vector<std::string> parts = {formatted("pass %llu/%llu", static_cast<unsigned long long>(now.pass),
-                                              static_cast<unsigned long long>(now.passes)),
-                                    clock_time(now.seconds) + " elapsed",
-                                    clock_time(now.remaining) + " left"};
+namespace {
+
+/// "error 6.1% → 2%": as estimated, and as wanted.
+std::string error_part(const Progress& now) {
+  std::string text = "error " + percentage(*now.error);
+  if (now.wanted_error) text += formatted(" → %.3g%%", 100 * *now.wanted_error);
+  return text;
+}
+
+/// In the order of their worth.
+std::vector<std::string> progress_parts(const Progress& now) {
+  const std::string elapsed = clock_time(now.seconds) + " elapsed";
+  std::vector<std::string> parts;
+  if (now.passes == 0) {
+    // How many passes it takes nobody knows; what the error tells comes first.
+    parts.push_back(formatted("pass %llu", static_cast<unsigned long long>(now.pass)));
+    if (now.error) parts.push_back(error_part(now));
+    if (std::isfinite(now.remaining)) parts.push_back("about " + clock_time(now.remaining) + " left");
+    parts.push_back(elapsed);
+    return parts;
+  }
+  parts = {formatted("pass %llu/%llu", static_cast<unsigned long long>(now.pass),
+                     static_cast<unsigned long long>(now.passes)),
+           elapsed, clock_time(now.remaining) + " left"};
   if (now.error)
-    parts.push_back("error " + percentage(*now.error) +
+    parts.push_back(error_part(now) +
                     (now.seconds_to_half ? ", half of it in " + clock_time(*now.seconds_to_half) : ""));
+  return parts;
+}
+
+/// Of UTF-8: bytes that do not continue a character.
+std::size_t columns(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string progress_text(const Progress& now, double photons_per_second, double rays_per_second, int width) {
+  // Those at the end give way first.
+  std::vector<std::string> parts = progress_parts(now);
   if (now.photons) parts.push_back(si_number(photons_per_second) + " photons/s");
   parts.push_back(si_number(rays_per_second) + " rays/s");
 
   std::string text;
   for (const auto& part : parts) {
     const std::string longer = text.empty() ? part : text + ", " + part;
-    if (longer.size() > static_cast<std::size_t>(width)) break;
+    if (columns(longer) > static_cast<std::size_t>(width)) break;
     text = longer;
   }
   return text;
@@ -89,10 +123,14 @@ std::string progress_text(const Progress& now, double photons_per_second, double
 
 std::string progress_bar(const Progress& now, double photons_per_second, double rays_per_second, int width) {
   std::string text = progress_text(now, photons_per_second, rays_per_second, width);
-  const int room = std::min(width - static_cast<int>(text.size()) - 3, 40);
+  const int room = std::min(width - static_cast<int>(columns(text)) - 3, 40);
   if (room < 5) return text;
-  const double share = now.passes ? static_cast<double>(now.pass) / static_cast<double>(now.passes) : 0;
-  const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * room);
+  double done = 0;
+  if (now.passes > 0)
+    done = static_cast<double>(now.pass) / static_cast<double>(now.passes);
+  else if (std::isfinite(now.remaining))
+    done = now.seconds / std::max(now.seconds + now.remaining, 1e-9);
+  const auto filled = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * room);
   std::string bar(static_cast<std::size_t>(room), '.');
   std::fill_n(bar.begin(), filled, '#');
   return "[" + bar + "] " + text;
@@ -104,14 +142,14 @@ ProgressReport::ProgressReport(std::FILE* stream, bool quiet)
 ProgressReport::~ProgressReport() { clear_bar(); }
 
 void ProgressReport::clear_bar() {
-  if (bar_drawn_) std::fputs("\r\033[K", stream_);
+  if (bar_drawn_) causticl::clear_bar(stream_);
   bar_drawn_ = false;
 }
 
 void ProgressReport::note(const std::string& text) {
   if (quiet_ || text.empty() || !noted_.insert(text).second) return;
   clear_bar();
-  std::fprintf(stream_, "causticl: note: %s\n", text.c_str());
+  print_message(stream_, "note: " + text);
 }
 
 void ProgressReport::update(const Progress& now) {
@@ -132,13 +170,11 @@ void ProgressReport::update(const Progress& now) {
   const double rays = static_cast<double>(now.rays - start.rays) / seconds;
   if (terminal_) {
     // One column is left free: a full line would wrap on some terminals.
-    std::fprintf(stream_, "\r%s\033[K",
-                 progress_bar(now, photons, rays, terminal_width(stream_) - 1).c_str());
+    draw_bar(stream_, progress_bar(now, photons, rays, terminal_width(stream_) - 1));
     bar_drawn_ = true;
   } else {
-    std::fprintf(stream_, "causticl: %s\n", progress_text(now, photons, rays, unlimited).c_str());
+    print_message(stream_, progress_text(now, photons, rays, unlimited));
   }
-  std::fflush(stream_);
 }
 
 void ProgressReport::finish(const std::vector<std::string>& files, const Statistics& statistics) {
@@ -146,21 +182,20 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
   clear_bar();
   std::string names;
   for (const auto& file : files) names += (names.empty() ? "" : ", ") + file;
-  std::fprintf(stream_, "causticl: wrote %s: %llu %s in %.1f s (%s)\n", names.c_str(),
-               static_cast<unsigned long long>(statistics.passes), statistics.passes == 1 ? "pass" : "passes",
-               statistics.seconds, reason(statistics.stop));
+  print_message(
+      stream_,
+      formatted("wrote %s: %llu %s in %.1f s (%s)", names.empty() ? "nothing" : names.c_str(),
+                static_cast<unsigned long long>(statistics.passes),
+                statistics.passes == 1 ? "pass" : "passes", statistics.seconds, reason(statistics.stop)));
   if (statistics.error) {
     const PictureError& error = *statistics.error;
-    std::fprintf(stream_, "causticl: error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
-                 percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
-                 percentage(error.noise).c_str(), percentage(error.bias).c_str());
-    if (statistics.photons)
-      std::fprintf(stream_, ", %s photons", si_number(static_cast<double>(statistics.photons)).c_str());
-    std::fputs("\n", stream_);
+    std::string line = formatted("error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
+                                 percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
+                                 percentage(error.noise).c_str(), percentage(error.bias).c_str());
+    if (statistics.photons) line += ", " + si_number(static_cast<double>(statistics.photons)) + " photons";
+    print_message(stream_, line);
   }
-  for (const auto& warning : fault_warnings(statistics.faults))
-    std::fprintf(stream_, "causticl: warning: %s\n", warning.c_str());
-  std::fflush(stream_);
+  for (const auto& warning : fault_warnings(statistics.faults)) print_message(stream_, "warning: " + warning);
 }
 
 }  // namespace causticl

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "checkpoints.hpp"
@@ -123,13 +124,13 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
 
 /// The picture of a scene without light, by no pass at all.
 RenderResult black_picture(const Scene& scene, const RenderOptions& options, const Statistics& statistics) {
-  RenderResult result{{scene.width, scene.height, {}}, statistics};
+  RenderResult result{{scene.width, scene.height, {}}, statistics, {}};
   result.picture.rgb.assign(
       3 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
   if (options.layers) result.picture.channels = layer_channels(result.picture.rgb.size() / 3);
   result.statistics.peak_memory_bytes = peak_memory();
-  for (const auto& file : options.outputs)
-    write_picture(file, result.picture, metadata_of(scene, options, statistics));
+  result.unwritten = write_pictures(options.outputs, result.picture, metadata_of(scene, options, statistics),
+                                    Unwritable::kept);
   return result;
 }
 
@@ -191,6 +192,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   PassIntegrator* const integrator = several ? several.get() : first.integrator.get();
 
   const auto wanted = static_cast<std::uint64_t>(sppm ? scene.renderer.passes : scene.renderer.samples);
+  const bool endless = options.wanted_error && wanted == endless_passes;
   PassIntegrator::Totals totals;
   Checkpoints checkpoints(scene.renderer.integrator);
   const auto loop_start = Clock::now();
@@ -200,7 +202,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   ErrorWatch watch(film, scene.renderer, options.confidence, options.wanted_error);
   statistics.confidence = options.confidence;
   const bool with_channels = std::any_of(options.outputs.begin(), options.outputs.end(), holds_channels);
-  const auto write = [&](Picture picture) {
+  const auto write = [&](Picture& picture, Unwritable unwritable) {
     const auto write_start = Clock::now();
     if (with_channels) {
       picture.channels = integrator->channels();
@@ -212,10 +214,10 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     statistics.photons = totals.photons_emitted;
     statistics.faults = totals.faults;
     statistics.error = watch.measure(statistics.passes);
-    for (const auto& file : options.outputs)
-      write_picture(file, picture, metadata_of(scene, options, statistics));
+    auto unwritten =
+        write_pictures(options.outputs, picture, metadata_of(scene, options, statistics), unwritable);
     longest_write = std::max(longest_write, seconds_since(write_start));
-    return picture;
+    return unwritten;
   };
 
   for (std::uint64_t pass = 0; pass < wanted; ++pass) {
@@ -237,10 +239,13 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
       options.snapshot({pass + 1, totals.photons_emitted, statistics.pass_seconds, film.picture(pass + 1)});
     if (progress) {
       const double per_pass = seconds_since(loop_start) / static_cast<double>(pass + 1);
-      double remaining = per_pass * static_cast<double>(wanted - pass - 1);
+      constexpr double unknown = std::numeric_limits<double>::infinity();
+      double remaining = endless ? unknown : per_pass * static_cast<double>(wanted - pass - 1);
       if (options.time_limit) remaining = std::min(remaining, std::max(0.0, *options.time_limit - elapsed));
-      Progress now{pass + 1, wanted, elapsed, remaining, {}, {}, totals.photons_emitted, totals.rays};
+      Progress now{pass + 1, endless ? 0 : wanted,   elapsed,    remaining, {},
+                   {},       totals.photons_emitted, totals.rays};
       now.pass_seconds = statistics.pass_seconds;
+      now.wanted_error = options.wanted_error;
       if (watch.last()) {
         now.error = watch.last()->error;
         if (const auto further = watch.passes_to_half(pass + 1)) now.seconds_to_half = per_pass * *further;
@@ -265,12 +270,10 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
       break;
     }
     if (!options.outputs.empty() && checkpoints.due(pass + 1, seconds_since(loop_start), longest_write)) {
-      try {
-        write(film.picture(statistics.passes));
-      } catch (const UserError& error) {
-        // A disk that is full now may have room at the end: the work so far is not thrown away.
-        if (notice) notice(std::string(error.what()) + " (will be tried again)");
-      }
+      Picture so_far = film.picture(statistics.passes);
+      // A disk that is full now may have room at the end: the work so far is not thrown away.
+      for (const auto& [file, fault] : write(so_far, Unwritable::lost))
+        if (notice) notice(fault + " (will be tried again)");
     }
   }
 
@@ -282,7 +285,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   statistics.photons_per_second = static_cast<double>(totals.photons_emitted) / loop_seconds;
   statistics.rays_per_second = static_cast<double>(totals.rays) / loop_seconds;
   RenderResult result;
-  result.picture = write(film.picture(statistics.passes));
+  result.picture = film.picture(statistics.passes);
+  result.unwritten = write(result.picture, Unwritable::kept);
   statistics.first_pass_seconds = std::chrono::duration<double>(integrator->began() - start).count();
   statistics.tree_build_seconds = first.scene.tree_build_seconds;
   statistics.triangles = first.scene.triangles;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,14 +52,15 @@ struct RenderOptions {
 
 /// Where a render stands, after each pass.
 struct Progress {
-  std::uint64_t pass = 0, passes = 0;  // done, wanted
+  std::uint64_t pass = 0, passes = 0;  // done, wanted; 0: as many as the wanted error takes
   double seconds = 0;                  // since the start
   double remaining = 0;                // seconds, by the time per pass so far and the limits
   std::optional<double> error;         // estimated, of the picture; none where it is not known yet
   // Until half that error; infinite where there is no end in sight, none while the trend is not known.
   std::optional<double> seconds_to_half;
-  std::uint64_t photons = 0, rays = 0;  // so far
-  double pass_seconds = 0;              // of the passes alone, without start-up, writing and snapshots
+  std::uint64_t photons = 0, rays = 0;      // so far
+  double pass_seconds = 0;                  // of the passes alone, without start-up, writing and snapshots
+  std::optional<double> wanted_error = {};  // at which it ends
 };
 
 /// A pass and its program.
@@ -108,13 +110,18 @@ struct Statistics {
 struct RenderResult {
   Picture picture;
   Statistics statistics;
+  std::vector<UnwrittenPicture> unwritten;  // of RenderOptions::outputs, in the end
 };
+
+/// As many passes as it takes: what a renderer's `passes` or `samples` hold where an error alone ends the
+/// render.
+constexpr int endless_passes = std::numeric_limits<int>::max();
 
 /// Renders `scene` on `devices`, which share every pass, with the integrator that it names. `progress` is
 /// called after each pass; `notice` with each line that the user should know; `interrupted` is asked after
 /// each pass and ends the render early when true. Writes options.outputs at passes 1, 2, 4, ... 64, while
 /// that takes less than a tenth of the time, and then every 64 or every 30 seconds, whichever is later (path
-/// tracing: every 30 seconds), and at the end.
+/// tracing: every 30 seconds), and at the end. What cannot be written in the end is kept elsewhere.
 RenderResult render_scene(const Scene& scene, const std::vector<Device*>& devices,
                           const RenderOptions& options,
                           const std::function<void(const Progress&)>& progress = {},

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 
 #include "error.hpp"
 #include "image.hpp"
 #include "output_file.hpp"
+#include "scene_output.hpp"
 
 namespace causticl {
 
 void apply_options(const Options& options, Scene& scene) {
   auto& renderer = scene.renderer;
   // Who asks for an error wants as many passes as it takes.
-  if (options.wanted_error) renderer.passes = renderer.samples = std::numeric_limits<int>::max();
+  if (options.wanted_error) renderer.passes = renderer.samples = endless_passes;
   const auto apply = [&](const auto& value, auto& target, Integrator owner, const std::string& option) {
     if (!value) return;
     if (renderer.integrator != owner) {
@@ -31,11 +31,12 @@ void apply_options(const Options& options, Scene& scene) {
 
 std::vector<std::string> output_files(const Options& options, const Scene& scene) {
   if (!options.outputs.empty()) return options.outputs;
-  if (!scene.output.empty()) return {scene.output};
-  return {std::filesystem::path(options.scene).stem().string() + ".png"};
+  return {scene_output(scene).file};
 }
 
 void check_outputs(const Options& options, const std::vector<std::string>& outputs) {
+  if (options.outputs.empty())
+    for (const auto& file : outputs) prepare_scene_output(file);
   for (const auto& file : outputs) check_output(file);
   if (options.layers && std::none_of(outputs.begin(), outputs.end(), holds_channels))
     throw UserError("--layers: no output can hold them; expected one that ends in .exr, as in -o " +

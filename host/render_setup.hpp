@@ -12,11 +12,11 @@ namespace causticl {
 /// each one that its integrator has no use for.
 void apply_options(const Options& options, Scene& scene);
 
-/// The files to write: those of -o, else the scene's `path`, else the scene's name with .png in the working
-/// directory.
+/// The files to write: those of -o, else that of scene_output().
 std::vector<std::string> output_files(const Options& options, const Scene& scene);
 
-/// Throws UserError if an output or the statistics cannot be written where the options say.
+/// Makes the folder of an output that the scene names. Throws UserError if an output or the statistics cannot
+/// be written where the options or the scene say.
 void check_outputs(const Options& options, const std::vector<std::string>& outputs);
 
 /// What the user should know of --threads on this device; empty where it does what it says.

@@ -5,6 +5,7 @@
 
 #include "error.hpp"
 #include "scene_loader.hpp"
+#include "scene_output.hpp"
 
 namespace causticl {
 namespace {
@@ -55,8 +56,8 @@ void read_integrator(const JsonReader& json, const SceneOptions& options, SceneL
 MediumSpec read_medium(const JsonReader& json) {
   json.check_keys({"absorption", "scattering", "g"});
   MediumSpec medium;
-  medium.absorption = read_vector(json, "absorption", {}, non_negative_number);
-  medium.scattering = read_vector(json, "scattering", {}, non_negative_number);
+  medium.absorption = read_color(json, "absorption", {}, non_negative_number);
+  medium.scattering = read_color(json, "scattering", {}, non_negative_number);
   medium.g = json.number("g", 0, {-0.99, 0.99, "a mean cosine from -0.99 to 0.99"});
   return medium;
 }
@@ -129,7 +130,7 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   loader.image_limits = options.image_limits;
   Scene& scene = loader.scene;
   scene.file = file;
-  if (const auto path = json.find("path")) scene.output = path->string();
+  if (const auto path = json.find("path")) scene.output = read_output(*path);
   read_size(json, options, scene);
   scene.max_depth = static_cast<int>(json.integer("max_depth", scene.max_depth, 1, 100000));
   scene.outside_ior = json.number("Na", scene.outside_ior, refractive_index);

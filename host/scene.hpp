@@ -137,6 +137,7 @@ struct Scene {
   std::vector<TextureSpec> textures;
   std::vector<Image> images;
   std::vector<Mesh> meshes;
+  std::vector<std::string> assets;   // every file that was read for it beside its own, each once
   std::vector<std::string> notices;  // what the user should know: ignored keys, fallbacks
 };
 

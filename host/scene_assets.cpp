@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "asset_file.hpp"
 #include "error.hpp"
 #include "scene_loader.hpp"
 
@@ -11,20 +12,28 @@ namespace {
 namespace fs = std::filesystem;
 
 // Beside the scene file first, so that a scene moves with its assets; then in the working directory.
-std::string resolve(const JsonReader& json, const std::string& scene_file) {
+std::string find_asset(const JsonReader& json, const std::string& scene_file) {
   const std::string path = json.string();
   if (path.empty() || path.find('\0') != std::string::npos) json.fail_expected("the path of a file");
   std::error_code status;
   const fs::path beside = fs::path(scene_file).parent_path() / path;
   for (const fs::path& candidate : {beside, fs::path(path)}) {
     if (!fs::exists(candidate, status)) continue;
-    if (fs::is_directory(candidate, status)) json.fail_expected("a file", "that is a directory");
+    if (const std::string fault = asset_fault(candidate); !fault.empty()) json.fail_expected("a file", fault);
     return candidate.lexically_normal().string();
   }
   const bool absolute = fs::path(path).is_absolute();
   json.fail_expected(
       "a file that exists",
       absolute ? "" : "relative paths are looked up beside the scene file, then in the working directory");
+}
+
+// The same, noted in the scene.
+std::string resolve(const JsonReader& json, Scene& scene) {
+  const std::string file = find_asset(json, scene.file);
+  if (std::find(scene.assets.begin(), scene.assets.end(), file) == scene.assets.end())
+    scene.assets.push_back(file);
+  return file;
 }
 
 // The index of `file` in `list`, read by `read` at the first mention; its error gets the place of the
@@ -45,7 +54,7 @@ int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list
 }  // namespace
 
 int SceneLoader::image(const JsonReader& json, bool srgb) {
-  const std::string file = resolve(json, scene.file);
+  const std::string file = resolve(json, scene);
   return load_once(images, {file, srgb}, scene.images, json, [&] {
     Image image = read_image(file, srgb, image_limits);
     image_limits = image_limits.after(image.rgba.size() / 4);
@@ -61,7 +70,7 @@ int SceneLoader::image(const JsonReader& json, bool srgb) {
 }
 
 Image SceneLoader::radiance_map(const JsonReader& json) {
-  const std::string file = resolve(json, scene.file);
+  const std::string file = resolve(json, scene);
   Image image;
   try {
     image = read_image(file, true, image_limits);
@@ -86,7 +95,7 @@ Image SceneLoader::radiance_map(const JsonReader& json) {
 }
 
 int SceneLoader::mesh(const JsonReader& json) {
-  const std::string file = resolve(json, scene.file);
+  const std::string file = resolve(json, scene);
   return load_once(meshes, file, scene.meshes, json, [&] { return read_mesh(file); });
 }
 

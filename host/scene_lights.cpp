@@ -34,7 +34,7 @@ void add_delta_light(const JsonReader& json, Kind kind, Scene& scene) {
   if (kind == Kind::directional) {
     json.check_keys({"type", "direction", "irradiance"});
     light.direction = read_direction(json.at("direction"));
-    light.intensity = read_vector(json.at("irradiance"), non_negative_number);
+    light.intensity = read_color(json.at("irradiance"), non_negative_number);
     if (is_lit(light)) refuse_infinite_planes(json, "a directional light", scene);
   } else {
     if (kind == Kind::point)
@@ -42,7 +42,7 @@ void add_delta_light(const JsonReader& json, Kind kind, Scene& scene) {
     else
       json.check_keys({"type", "position", "target", "angle", "blend", "intensity"});
     light.position = read_vector(json.at("position"));
-    light.intensity = read_vector(json.at("intensity"), non_negative_number);
+    light.intensity = read_color(json.at("intensity"), non_negative_number);
   }
   if (kind == Kind::spot) {
     const Vec3 axis = read_vector(json.at("target")) - light.position;
@@ -50,7 +50,7 @@ void add_delta_light(const JsonReader& json, Kind kind, Scene& scene) {
       json.at("target").fail("expected a point other than `position`, got the same");
     light.direction = normalize(axis);
     light.angle = json.at("angle").number(cone_angle);
-    light.blend = json.number("blend", 0, unit_number);
+    light.blend = read_fraction(json, "blend", 0, unit_number);
   }
   scene.lights.push_back(light);
 }
@@ -70,7 +70,7 @@ void add_disk(const JsonReader& json, Scene& scene) {
 
   MaterialSpec black;
   black.color = {0, 0, 0};
-  black.emission = read_vector(json.at("radiance"), non_negative_number);
+  black.emission = read_color(json.at("radiance"), non_negative_number);
   light.material = static_cast<int>(scene.materials.size());
   scene.materials.push_back(black);
   scene.objects.push_back(light);
@@ -101,7 +101,7 @@ void add_environment(const JsonReader& json, SceneLoader& loader) {
   if (const auto path = json.find("path"))
     environment.map = loader.radiance_map(*path);
   else
-    environment.map = constant_map(read_vector(json.at("radiance"), non_negative_number));
+    environment.map = constant_map(read_color(json.at("radiance"), non_negative_number));
   if (is_lit(environment)) refuse_infinite_planes(json, "an environment", scene);
   scene.environment = std::move(environment);
 }

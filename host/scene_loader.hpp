@@ -36,7 +36,15 @@ Vec3 read_vector(const JsonReader& json, const NumberRange& range = any_number);
 Vec3 read_vector(const JsonReader& json, const std::string& key, Vec3 absent,
                  const NumberRange& range = any_number);
 
-/// A list of shifts, scales and rotations, applied in listed order.
+/// A fraction for a key that may be absent; who writes 70 for 70% is told so.
+double read_fraction(const JsonReader& json, const std::string& key, double absent, const NumberRange& range);
+
+/// A colour: a vector, or one number for all channels.
+Color read_color(const JsonReader& json, const NumberRange& range);
+/// The same for a key that may be absent.
+Color read_color(const JsonReader& json, const std::string& key, Color absent, const NumberRange& range);
+
+/// A list of shifts, scales, rotations and matrices, applied in listed order.
 Transform read_transform(const JsonReader& json);
 
 /// Either camera form; `aspect` is width / height.

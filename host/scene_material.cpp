@@ -17,6 +17,11 @@ int add_material(const MaterialSpec& material, SceneLoader& loader) {
 std::array<double, 2> read_scale(const JsonReader& json) {
   const auto found = json.find("scale");
   if (!found) return {1, 1};
+  if (found->value().kind == JsonValue::Kind::number) {
+    const double factor = found->number();
+    if (factor == 0) found->fail_expected("a number other than 0");
+    return {factor, factor};
+  }
   const auto items = found->items(2, 2, "numbers, of u and of v");
   std::array<double, 2> scale;
   for (int i = 0; i < 2; ++i) {
@@ -42,8 +47,8 @@ int read_color_texture(const JsonReader& json, SceneLoader& loader) {
   } else {
     json.check_keys({"type", "a", "b", "scale"});
     texture.kind = TextureSpec::Kind::checker;
-    texture.a = read_vector(json.at("a"), unit_number);
-    texture.b = read_vector(json.at("b"), unit_number);
+    texture.a = read_color(json.at("a"), unit_number);
+    texture.b = read_color(json.at("b"), unit_number);
     texture.scale = read_scale(json);
   }
   return add_texture(texture, loader);
@@ -66,13 +71,13 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
       static_cast<Kind>(json.at("type").choice({"diffuse", "mirror", "glass", "conductor", "plastic"}));
   if (material.kind == Kind::conductor) {
     json.check_keys({"type", "eta", "k", "emission", "two_sided", "roughness"});
-    material.eta = read_vector(json.at("eta"), refractive_index);
-    material.k = read_vector(json.at("k"), extinction_coefficient);
+    material.eta = read_color(json.at("eta"), refractive_index);
+    material.k = read_color(json.at("k"), extinction_coefficient);
   } else if (material.kind == Kind::glass) {
     json.check_keys(
         {"type", "color", "emission", "two_sided", "ior", "cauchy", "absorption", "roughness", "priority"});
     material.priority = static_cast<int>(json.integer("priority", 0, -1000000, 1000000));
-    material.absorption = read_vector(json, "absorption", {}, non_negative_number);
+    material.absorption = read_color(json, "absorption", {}, non_negative_number);
   } else if (material.kind == Kind::plastic) {
     json.check_keys({"type", "color", "emission", "two_sided", "ior", "roughness"});
   } else {
@@ -82,9 +87,9 @@ int read_material(const JsonReader& json, SceneLoader& loader) {
     if (color->has("type"))
       material.color_texture = read_color_texture(*color, loader);
     else
-      material.color = read_vector(*color, unit_number);
+      material.color = read_color(*color, unit_number);
   }
-  material.emission = read_vector(json, "emission", {}, non_negative_number);
+  material.emission = read_color(json, "emission", {}, non_negative_number);
   material.two_sided = json.boolean("two_sided", false);
   material.ior = json.number("ior", loader.glass_ior, refractive_index);
   if (const auto cauchy = json.find("cauchy")) read_cauchy(*cauchy, json, material);
@@ -98,7 +103,7 @@ MaterialSpec::Kind read_base_kind(const JsonReader& json) {
 
 // cg_tracing took any colour; above 1 a surface would reflect more than it receives.
 Color read_base_color(const JsonReader& json, SceneLoader& loader) {
-  const Color color = read_vector(json, non_negative_number);
+  const Color color = read_color(json, non_negative_number);
   if (max_component(color) <= 1) return color;
   loader.notice(json, "reflectance above 1 is taken as 1");
   return {std::fmin(color.x, 1), std::fmin(color.y, 1), std::fmin(color.z, 1)};
@@ -116,7 +121,7 @@ int read_base_texture(const JsonReader& json, Object::Shape shape, SceneLoader& 
     json.check_keys({"type", "emission", "color", "material"});
     material.kind = read_base_kind(json);
     material.color = read_base_color(json.at("color"), loader);
-    material.emission = read_vector(json, "emission", {}, non_negative_number);
+    material.emission = read_color(json, "emission", {}, non_negative_number);
     return add_material(material, loader);
   }
 

@@ -1,6 +1,7 @@
 // The key `renderer`.
 #include <limits>
 
+#include "option_values.hpp"
 #include "scene_loader.hpp"
 
 namespace causticl {
@@ -25,7 +26,29 @@ const std::vector<std::string> renderer_keys{"type",
                                              "guided_photons",
                                              "aimed_photons",
                                              "boundary_correction",
-                                             "sampler"};
+                                             "sampler",
+                                             "samples",
+                                             "visible_points",
+                                             "photons",
+                                             "passes"};
+
+Integrator read_integrator_name(const JsonReader& json) {
+  if (json.value().kind == JsonValue::Kind::string)
+    if (const auto integrator = parse_integrator(json.string())) return *integrator;
+  return json.choice({"sppm", "pt"}) == 0 ? Integrator::sppm : Integrator::pt;
+}
+
+// A key that has two names: that of cg_tracing and that of the command line. A -D that comes with the one
+// replaces the other.
+std::optional<JsonReader> find_either(const JsonReader& json, const char* key, const char* other_key) {
+  const auto value = json.find(key), other = json.find(other_key);
+  if (!value || !other) return value ? value : other;
+  const int source = value->value().source, other_source = other->value().source;
+  if (source == other_source)
+    other->fail(std::string("expected \"") + key + "\" or \"" + other_key +
+                "\", which are the same, got both");
+  return source > other_source ? value : other;
+}
 
 }  // namespace
 
@@ -33,20 +56,22 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   // Keys of both integrators are welcome in either, so that one file serves --integrator too.
   json.check_keys(renderer_keys);
   RendererSpec& renderer = loader.scene.renderer;
-  if (const auto type = json.find("type"))
-    renderer.integrator = type->choice({"sppm", "pt"}) == 0 ? Integrator::sppm : Integrator::pt;
-  renderer.samples = static_cast<int>(json.integer("sample", renderer.samples, 1, count_limit));
-  renderer.visible_points =
-      static_cast<int>(json.integer("view_point_sample", renderer.visible_points, 1, 1024));
-  renderer.photons = json.integer("photon_sample", renderer.photons, 1, count_limit);
-  renderer.passes = static_cast<int>(json.integer("rounds", renderer.passes, 1, count_limit));
+  if (const auto type = json.find("type")) renderer.integrator = read_integrator_name(*type);
+  if (const auto samples = find_either(json, "sample", "samples"))
+    renderer.samples = static_cast<int>(samples->integer(1, count_limit));
+  if (const auto points = find_either(json, "view_point_sample", "visible_points"))
+    renderer.visible_points = static_cast<int>(points->integer(1, 1024));
+  if (const auto photons = find_either(json, "photon_sample", "photons"))
+    renderer.photons = photons->integer(1, count_limit);
+  if (const auto passes = find_either(json, "rounds", "passes"))
+    renderer.passes = static_cast<int>(passes->integer(1, count_limit));
   if (const auto radius = json.find("radius")) renderer.radius = radius->number(positive_number);
   if (const auto wider = json.find("indirect_radius"))
     renderer.indirect_radius = wider->number({1, 100, "a number from 1 to 100"});
   renderer.guided_photons = json.boolean("guided_photons", renderer.guided_photons);
   if (json.has("aimed_photons")) renderer.aimed_photons = json.boolean("aimed_photons", true);
   renderer.boundary_correction = json.boolean("boundary_correction", renderer.boundary_correction);
-  renderer.alpha = json.number("alpha", renderer.alpha, open_unit_number);
+  renderer.alpha = read_fraction(json, "alpha", renderer.alpha, open_unit_number);
   renderer.radius_decay =
       json.number("radius_decay", renderer.radius_decay, {1e-6, 1, "a number from 1e-6 to 1"});
   if (const auto schedule = json.find("schedule"))
@@ -79,7 +104,7 @@ void read_disc_light(const JsonReader& json, SceneLoader& loader) {
   MaterialSpec black;
   black.pointer = json.pointer();
   black.color = {0, 0, 0};
-  black.emission = read_vector(json, "light_radiance", {10, 10, 10}, non_negative_number);
+  black.emission = read_color(json, "light_radiance", {10, 10, 10}, non_negative_number);
   light.material = static_cast<int>(loader.scene.materials.size());
   loader.scene.materials.push_back(black);
   loader.scene.objects.push_back(light);

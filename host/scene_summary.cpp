@@ -6,7 +6,9 @@
 
 #include "dielectrics.hpp"
 #include "object_bounds.hpp"
+#include "printable.hpp"
 #include "report.hpp"
+#include "scene_output.hpp"
 
 namespace causticl {
 namespace {
@@ -65,7 +67,7 @@ const char* material_name(MaterialSpec::Kind kind) {
 
 void print_image(std::ostream& text, const Scene& scene) {
   text << "image       " << scene.width << " x " << scene.height << " pixels";
-  if (!scene.output.empty()) text << ", to " << scene.output;
+  if (!scene.output.empty()) text << ", to " << scene_output(scene).file;
   text << "\n";
 }
 
@@ -126,7 +128,7 @@ void print_objects(std::ostream& text, const Scene& scene) {
   }
   for (const auto& [index, number] : uses) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
-    text << "  mesh      " << mesh.file << ": " << count(mesh.triangles(), "triangle");
+    text << "  mesh      " << printable_line(mesh.file) << ": " << count(mesh.triangles(), "triangle");
     if (number > 1) text << ", used " << number << " times";
     text << "\n";
   }
@@ -163,7 +165,7 @@ void print_materials(std::ostream& text, const Scene& scene) {
       continue;
     }
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-    text << "  image     " << image.file << ": " << image.width << " x " << image.height
+    text << "  image     " << printable_line(image.file) << ": " << image.width << " x " << image.height
          << (texture.bilinear ? ", bilinear" : ", nearest") << "\n";
   }
 }
@@ -185,7 +187,7 @@ std::string delta_light_line(const DeltaLight& light) {
 
 std::string environment_line(const Environment& environment) {
   std::string line = environment.pointer + ": environment ";
-  if (!environment.map.file.empty()) line += environment.map.file + ", ";
+  if (!environment.map.file.empty()) line += printable_line(environment.map.file) + ", ";
   return line + std::to_string(environment.map.width) + " x " + std::to_string(environment.map.height) +
          " texels";
 }
@@ -220,7 +222,7 @@ void print_bounds(std::ostream& text, const Scene& scene) {
 
 std::string scene_summary(const Scene& scene) {
   std::ostringstream text;
-  text << "scene       " << scene.file << "\n";
+  text << "scene       " << printable_line(scene.file) << "\n";
   print_image(text, scene);
   print_integrator(text, scene);
   print_camera(text, scene.camera);
@@ -230,8 +232,9 @@ std::string scene_summary(const Scene& scene) {
   print_medium(text, scene.medium);
   print_emitters(text, scene);
   print_bounds(text, scene);
-  for (const auto& line : find_dielectrics(scene).lines) text << "dielectrics " << line << "\n";
-  for (const auto& notice : scene.notices) text << "note        " << notice << "\n";
+  for (const auto& line : find_dielectrics(scene).lines)
+    text << "dielectrics " << printable_line(line) << "\n";
+  for (const auto& notice : scene.notices) text << "note        " << printable_line(notice) << "\n";
   return text.str();
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
+#include "spelling.hpp"
 
 namespace causticl {
 namespace {
@@ -32,6 +33,12 @@ bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
   });
 }
 
+std::vector<std::string> names_of(const std::vector<Check>& checks) {
+  std::vector<std::string> names;
+  for (const auto& check : checks) names.push_back(check.name);
+  return names;
+}
+
 std::string verdict_of(const CheckResult& result) {
   return !result.skipped.empty() ? "skipped" : result.failures ? "FAILED" : "ok";
 }
@@ -50,7 +57,8 @@ std::vector<Check> wanted_checks(std::vector<Check> checks, const SelftestOption
     if (std::none_of(checks.begin(), checks.end(),
                      [&](const Check& check) { return is_wanted(check, {text}); }))
       throw UserError("--case " + text + ": no such check; expected a number from 1 to " +
-                      std::to_string(hard_case_count) + " or part of the name of a check");
+                      std::to_string(hard_case_count) + " or part of the name of a check" +
+                      did_you_mean(text, names_of(checks)));
   std::erase_if(checks, [&](const Check& check) { return !is_wanted(check, options.checks); });
   if (!options.replay.empty() && checks.size() != 1)
     throw UserError("--replay: expected --case with the name of the one check that the input is for, found " +

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "error.hpp"
+#include "spelling.hpp"
 
 namespace causticl {
 namespace {
@@ -220,11 +221,16 @@ const std::vector<Knob>& study_knobs() {
 
 std::vector<const Knob*> wanted_knobs(const std::vector<std::string>& names) {
   std::string known;
-  for (const Knob& knob : study_knobs()) known += (known.empty() ? "" : ", ") + std::string(knob.name);
+  std::vector<std::string> all;
+  for (const Knob& knob : study_knobs()) {
+    known += (known.empty() ? "" : ", ") + std::string(knob.name);
+    all.emplace_back(knob.name);
+  }
   for (const auto& name : names)
     if (std::none_of(study_knobs().begin(), study_knobs().end(),
                      [&](const Knob& knob) { return name == knob.name; }))
-      throw UserError("--knobs: there is no knob " + json_quote(name) + "; expected some of " + known);
+      throw UserError("--knobs: there is no knob " + json_quote(name) + "; expected some of " + known +
+                      did_you_mean(name, all));
   std::vector<const Knob*> wanted;
   for (const Knob& knob : study_knobs())
     if (names.empty() || std::find(names.begin(), names.end(), knob.name) != names.end())

@@ -42,8 +42,14 @@ void read_given(StudySession& session) {
     throw UserError("--reference " + file + ": has " +
                     size(session.reference.width, session.reference.height) + " pixels; expected " +
                     size(study.width, study.height) + ", or another --size");
-  session.study.reference = StudyReference{"the file " + file + ", whose own error is not known", 0, 0,
-                                           usable_mean(session.reference, "--reference " + file), 0};
+  StudyReference reference{"the file " + file + ", whose own error is not known", 0, 0,
+                           usable_mean(session.reference, "--reference " + file), 0};
+  if (const auto noise = noise_of(session.reference)) {
+    reference.how = "the file " + file + ", whose noise its channels error.* tell";
+    reference.relative_mse = noise->mse / (reference.mean * reference.mean);
+    reference.error_90 = noise->error_90;
+  }
+  session.study.reference = reference;
 }
 
 /// How to render a reference. Where every surface is diffuse, path tracing finds all light and blurs none;

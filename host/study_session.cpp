@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "error.hpp"
-#include "input_file.hpp"
+#include "output_file.hpp"
+#include "study_inputs.hpp"
 
 namespace causticl {
 namespace {
@@ -20,22 +21,6 @@ std::string today() {
   char text[16];
   std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
   return text;
-}
-
-std::string bytes_of(const std::string& file) {
-  return read_input(file, "an input of the study", std::uint64_t{1} << 32);
-}
-
-/// Of all that decides the picture: the file, and the meshes and images that it names.
-std::string scene_fingerprint(const Scene& scene) {
-  std::string hash = fingerprint(bytes_of(scene.file));
-  const auto add = [&](const auto& values) {
-    hash =
-        fingerprint({reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]}, hash);
-  };
-  for (const Image& image : scene.images) add(image.rgba);
-  for (const Mesh& mesh : scene.meshes) add(mesh.positions);
-  return hash;
 }
 
 /// At most this many pixels where no --size is given: errors relative to brightness hardly depend on the
@@ -66,21 +51,29 @@ Study new_study(const Options& options) {
     study.words.push_back("-D");
     study.words.push_back(key + "=" + value);
   }
+  study.options = deciding_options(options);
   study.seed = options.seed;
   study.threads = options.threads;
   const std::string& reference = options.study.reference;
-  if (!reference.empty()) study.given_reference = reference + " " + fingerprint(bytes_of(reference));
+  if (!reference.empty()) study.given_reference = reference + " " + file_fingerprint(reference);
   study.date = today();
   return study;
 }
 
-/// The study in the folder where it is of the same things as `wanted`, else `wanted` itself.
-Study open_study(const Options& options, const std::string& folder,
+/// Takes the lock of the folder. The study in the folder where it is of the same things as `wanted`, else
+/// `wanted` itself.
+Study open_study(const Options& options, const std::string& folder, FolderLock& folder_lock,
                  const std::function<void(const std::string&)>& say) {
   Study wanted = new_study(options);
   std::error_code error;
   fs::create_directories(fs::path(folder) / "pictures", error);
   if (error) throw UserError("-o " + folder + ": cannot be made a folder: " + error.message());
+  if (!folder_lock.lock(folder))
+    throw UserError(folder +
+                    ": another study is at work in this folder; wait until it has ended, or choose another "
+                    "folder with -o");
+  for (const fs::path& part : {fs::path(folder), fs::path(folder) / "pictures"})
+    remove_left_half_written(part);
   auto found = options.study.restart ? std::nullopt : read_study(folder);
   if (found) {
     const std::string difference = difference_of(*found, wanted);
@@ -108,7 +101,7 @@ StudySession::StudySession(const Options& given, KernelCache& kernels,
       folder(given.study.folder.empty() ? fs::path(given.scene).stem().string() + "-study"
                                         : given.study.folder),
       budget{given.study.budget, given.study.reference.empty()},
-      study(open_study(given, folder, say)),
+      study(open_study(given, folder, lock, say)),
       renderer(given, kernels, study.words),
       spent_before_(study.spent_seconds) {
   if (options.scene_options.integrator)

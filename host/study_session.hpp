@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "folder_lock.hpp"
 #include "options.hpp"
 #include "study_plan.hpp"
 #include "study_render.hpp"
@@ -24,6 +25,7 @@ class StudySession {
   const std::function<void(const std::string&)> say;
   const std::function<bool()> interrupted;
   std::string folder;
+  FolderLock lock;  // of the folder, taken before anything in it is looked at
   StudyBudget budget;
   std::vector<std::string> own_words;  // of an --integrator that the user gave
   Study study;

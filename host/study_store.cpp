@@ -90,6 +90,7 @@ Study study_of(const Json& json) {
   study.version = json.at("version");
   study.device = json.at("device");
   study.words = json.at("words").get<std::vector<std::string>>();
+  study.options = json.value("options", std::vector<std::string>());
   study.width = json.at("width");
   study.height = json.at("height");
   study.seed = json.at("seed");
@@ -170,6 +171,7 @@ std::string study_json(const Study& study) {
                      {"version", study.version},
                      {"device", study.device},
                      {"words", study.words},
+                     {"options", study.options},
                      {"width", study.width},
                      {"height", study.height},
                      {"seed", study.seed},
@@ -207,6 +209,8 @@ std::string difference_of(const Study& found, const Study& wanted) {
   if (found.version != wanted.version) return differs("the version", found.version, wanted.version);
   if (found.device != wanted.device) return differs("the device", found.device, wanted.device);
   if (found.words != wanted.words) return differs("the options", joined(found.words), joined(wanted.words));
+  if (found.options != wanted.options)
+    return differs("the options or the kernels", joined(found.options), joined(wanted.options));
   if (found.seed != wanted.seed)
     return differs("the seed", std::to_string(found.seed), std::to_string(wanted.seed));
   if (found.threads != wanted.threads)
@@ -223,23 +227,9 @@ void write_study(const std::string& folder, const Study& study) {
 }
 
 std::optional<Study> read_study(const std::string& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    std::error_code ignored;
-    if (name.starts_with(".causticl-") && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
-  }
   const std::string file = (fs::path(folder) / "study.json").string();
   if (!fs::exists(file)) return {};
   return study_from_json(file, read_input(file, "a study", 64u << 20));
-}
-
-std::string fingerprint(const std::string& bytes, const std::string& before) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const std::string* part : {&before, &bytes})
-    for (const char c : *part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
 }
 
 }  // namespace causticl

@@ -45,7 +45,8 @@ struct StudyReference {
 struct Study {
   // What must be the same for measurements to belong together.
   std::string scene, scene_hash, version, device;
-  std::vector<std::string> words;  // size and overrides of the command line, for every render
+  std::vector<std::string> words;    // size and overrides of the command line, for every render
+  std::vector<std::string> options;  // all others that decide what is rendered: see deciding_options()
   int width = 0, height = 0;
   std::uint32_t seed = 1;
   unsigned threads = 0;
@@ -82,10 +83,7 @@ std::string difference_of(const Study& found, const Study& wanted);
 
 /// Writes study.json, then study.csv, into `folder`, each whole or not at all. Throws UserError.
 void write_study(const std::string& folder, const Study& study);
-/// The study in `folder`, if there is one. Removes what a killed process left half written.
+/// The study in `folder`, if there is one.
 std::optional<Study> read_study(const std::string& folder);
-
-/// A short fingerprint of bytes (FNV-1a, 64 bits), in hexadecimal; `seed` is that of what came before.
-std::string fingerprint(const std::string& bytes, const std::string& before = "");
 
 }  // namespace causticl

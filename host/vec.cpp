@@ -49,4 +49,14 @@ Transform Transform::rotate(int axis, double radians) {
   return result;
 }
 
+// Rodrigues: v cos + (a x v) sin + a (a . v) (1 - cos).
+Transform Transform::rotate(Vec3 a, double radians) {
+  const double c = std::cos(radians), s = std::sin(radians);
+  Transform result;
+  result.rows = {Vec3{c + a.x * a.x * (1 - c), a.x * a.y * (1 - c) - a.z * s, a.x * a.z * (1 - c) + a.y * s},
+                 Vec3{a.y * a.x * (1 - c) + a.z * s, c + a.y * a.y * (1 - c), a.y * a.z * (1 - c) - a.x * s},
+                 Vec3{a.z * a.x * (1 - c) - a.y * s, a.z * a.y * (1 - c) + a.x * s, c + a.z * a.z * (1 - c)}};
+  return result;
+}
+
 }  // namespace causticl

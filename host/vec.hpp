@@ -46,6 +46,8 @@ struct Transform {
   static Transform scale(Vec3 by);
   /// Right-handed rotation about a world axis, 0 for x, 1 for y, 2 for z.
   static Transform rotate(int axis, double radians);
+  /// The same about a direction of unit length.
+  static Transform rotate(Vec3 axis, double radians);
 };
 
 }  // namespace causticl

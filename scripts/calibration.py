@@ -104,8 +104,9 @@ def measure(scene):
             run('compare', picture, reference, '--json', file)
             compared.append(json.loads(file.read_text()))
         covered[passes] = statistics.mean(c['covered_90'] for c in compared)
-        # Independent errors add up as squares.
-        squares = statistics.mean(c['error_90'] for c in compared) ** 2 - noise ** 2
+        # Independent errors add up as squares. What was measured holds the reference's noise; `error_90`
+        # does not.
+        squares = statistics.mean(c.get('measured_error_90', c['error_90']) for c in compared) ** 2 - noise ** 2
         truth[passes] = math.sqrt(squares) if squares > 0 else 0
         estimate[passes] = statistics.mean(s['error'] for _, s in pictures)
         further = [s['passes_to_half_error'] or math.inf for _, s in pictures if 'passes_to_half_error' in s]

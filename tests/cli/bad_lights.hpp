@@ -19,9 +19,8 @@ inline constexpr BadScene bad_lights[] = {
      "\"intensity\""},
     {"point light without intensity", "\"width\": 64",
      "\"lights\": [{\"type\": \"point\", \"position\": [0, 1, 0]}]",
-     "scene.json:2: /lights/0/intensity: expected a vector, got nothing; the key is required; write [x, y, "
-     "z] or "
-     "{\"x\": x, \"y\": y, \"z\": z}"},
+     "scene.json:2: /lights/0/intensity: expected a colour, got nothing; the key is required; write [r, g, "
+     "b], {\"x\": r, \"y\": g, \"z\": b}, or one number for grey"},
     {"negative intensity", "\"width\": 64",
      "\"lights\": [{\"type\": \"point\", \"position\": [0, 1, 0], \"intensity\": [1, -1, 1]}]",
      "scene.json:2: /lights/0/intensity/1: expected a number from 0 to 1e12, got -1"},

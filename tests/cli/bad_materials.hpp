@@ -36,8 +36,8 @@ inline constexpr BadScene bad_materials[] = {
      "scene.json:5: /materials/white/color: unknown key \"color\"; use one of \"type\", \"eta\", \"k\", "
      "\"emission\", \"two_sided\" or \"roughness\""},
     {"conductor without k", "\"diffuse\", \"color\"", "\"conductor\", \"eta\"",
-     "scene.json:5: /materials/white/k: expected a vector, got nothing; the key is required; write [x, y, z] "
-     "or {\"x\": x, \"y\": y, \"z\": z}"},
+     "scene.json:5: /materials/white/k: expected a colour, got nothing; the key is required; write [r, g, "
+     "b], {\"x\": r, \"y\": g, \"z\": b}, or one number for grey"},
     {"negative k", "\"diffuse\", \"color\"", "\"conductor\", \"k\": [1, -1, 1], \"eta\"",
      "scene.json:5: /materials/white/k/1: expected an extinction coefficient from 0 to 100, got -1"},
     {"roughness above 1", "\"diffuse\", \"color\"", "\"plastic\", \"roughness\": 1.5, \"color\"",
@@ -55,8 +55,8 @@ inline constexpr BadScene bad_materials[] = {
     {"negative colour", "[0.8, 0.8, 0.8]", "[0.8, -0.1, 0.8]",
      "scene.json:5: /materials/white/color/1: expected a number from 0 to 1, got -0.1"},
     {"colour by name", "[0.8, 0.8, 0.8]", "\"white\"",
-     "scene.json:5: /materials/white/color: expected a vector, got \"white\"; write [x, y, z] or {\"x\": x, "
-     "\"y\": y, \"z\": z}"},
+     "scene.json:5: /materials/white/color: expected a colour, got \"white\"; write [r, g, b], {\"x\": r, "
+     "\"y\": g, \"z\": b}, or one number for grey"},
     {"negative emission", "\"emission\": [1, 1, 1]", "\"emission\": [1, 1, -1]",
      "scene.json:8: /objects/1/material/emission/2: expected a number from 0 to 1e12, got -1"},
     {"two_sided as a number", "\"emission\": [1, 1, 1]", "\"emission\": [1, 1, 1], \"two_sided\": 1",
@@ -104,8 +104,8 @@ inline constexpr BadScene bad_materials[] = {
      "\"glass\""},
     {"base texture without colour", "\"material\": \"white\"",
      "\"texture\": {\"type\": \"raw\", \"material\": \"diffuse\"}",
-     "scene.json:7: /objects/0/texture/color: expected a vector, got nothing; the key is required; write [x, "
-     "y, z] or {\"x\": x, \"y\": y, \"z\": z}"},
+     "scene.json:7: /objects/0/texture/color: expected a colour, got nothing; the key is required; write [r, "
+     "g, b], {\"x\": r, \"y\": g, \"z\": b}, or one number for grey"},
     {"zero width_ratio", "\"material\": \"white\"",
      "\"texture\": {\"type\": \"image\", \"path\": \"x.png\", \"material\": \"diffuse\", \"width_ratio\": 0}",
      "scene.json:7: /objects/0/texture/width_ratio: expected a positive number from 1e-12 to 1e12, got 0"},
@@ -115,15 +115,15 @@ inline constexpr BadScene bad_materials[] = {
      "{\"type\": \"image\", \"path\": \"x.png\", \"color_space\": \"rgb\"}",
      "scene.json:5: /materials/white/color/color_space: expected \"srgb\" or \"linear\", got \"rgb\"; did "
      "you mean \"srgb\"?"},
-    {"texture scale as a number", "[0.8, 0.8, 0.8]",
-     "{\"type\": \"checker\", \"a\": [0, 0, 0], \"b\": [1, 1, 1], \"scale\": 4}",
-     "scene.json:5: /materials/white/color/scale: expected a list of 2 numbers, of u and of v, got 4"},
+    {"texture scale as a text", "[0.8, 0.8, 0.8]",
+     "{\"type\": \"checker\", \"a\": [0, 0, 0], \"b\": [1, 1, 1], \"scale\": \"4\"}",
+     "scene.json:5: /materials/white/color/scale: expected a list of 2 numbers, of u and of v, got \"4\""},
     {"texture scale of 0", "[0.8, 0.8, 0.8]",
      "{\"type\": \"checker\", \"a\": [0, 0, 0], \"b\": [1, 1, 1], \"scale\": [4, 0]}",
      "scene.json:5: /materials/white/color/scale/1: expected a number other than 0, got 0"},
     {"checker without b", "[0.8, 0.8, 0.8]", "{\"type\": \"checker\", \"a\": [0, 0, 0]}",
-     "scene.json:5: /materials/white/color/b: expected a vector, got nothing; the key is required; write [x, "
-     "y, z] or {\"x\": x, \"y\": y, \"z\": z}"},
+     "scene.json:5: /materials/white/color/b: expected a colour, got nothing; the key is required; write [r, "
+     "g, b], {\"x\": r, \"y\": g, \"z\": b}, or one number for grey"},
 };
 
 }  // namespace causticl

@@ -17,12 +17,12 @@ inline constexpr BadScene bad_objects[] = {
      "scene.json:7: /objects/0/transform: expected a list of transforms, got an object"},
     {"unknown transform", "\"type\": \"rectangle\"",
      "\"type\": \"rectangle\", \"transform\": [{\"type\": \"translate\", \"x\": 1, \"y\": 0, \"z\": 0}]",
-     "scene.json:7: /objects/0/transform/0/type: expected \"shift\", \"scale\", \"rotate\" or "
-     "\"rotateradian\", got \"translate\""},
+     "scene.json:7: /objects/0/transform/0/type: expected \"shift\", \"scale\", \"rotate\", \"rotateradian\" "
+     "or \"matrix\", got \"translate\""},
     {"transform without type", "\"type\": \"rectangle\"",
      "\"type\": \"rectangle\", \"transform\": [{\"x\": 1, \"y\": 0, \"z\": 0}]",
-     "scene.json:7: /objects/0/transform/0/type: expected \"shift\", \"scale\", \"rotate\" or "
-     "\"rotateradian\", got nothing; the key is required"},
+     "scene.json:7: /objects/0/transform/0/type: expected \"shift\", \"scale\", \"rotate\", \"rotateradian\" "
+     "or \"matrix\", got nothing; the key is required"},
     {"shift without z", "\"type\": \"rectangle\"",
      "\"type\": \"rectangle\", \"transform\": [{\"type\": \"shift\", \"x\": 1, \"y\": 0}]",
      "scene.json:7: /objects/0/transform/0/z: expected a number from -1e12 to 1e12, got nothing; the key is "

@@ -136,6 +136,10 @@ TEST_CASE("--error stops when the estimate is small enough, at the same pass eve
   };
   const auto first = stats_of({"--error", "30%"}), second = stats_of({"--error", "0.3", "-o", "b.exr"});
   CHECK(first["error"] <= 0.3);
+  // No number of passes is known, and none is shown.
+  const Finished run = run_causticl(small_render({"--error", "30%", "-o", "a.pfm"}), folder.path(""));
+  CHECK_THAT(run.errors, Contains("causticl: pass 1, ") && Contains(" → 30%, ") && Contains("about ") &&
+                             !Contains("pass 1/") && !Contains("2147483647"));
   CHECK(first["stop"] == "error");
   // More passes than the scene's own, if that is what it takes.
   CHECK(first["passes"] >= 8);

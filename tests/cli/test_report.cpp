@@ -127,6 +127,25 @@ TEST_CASE("the error and the time to half of it are shown once they are known") 
   CHECK(percentage(0.1234) == "12%");
 }
 
+TEST_CASE("where an error alone ends the render, what is known of it comes first") {
+  Progress now = progress_at(12, 7);
+  now.passes = 0;
+  now.wanted_error = 0.02;
+  now.remaining = std::numeric_limits<double>::infinity();
+  CHECK(progress_text(now, 1e6, 3e6, 150) == "pass 12, 0:07 elapsed, 1.00 M photons/s, 3.00 M rays/s");
+  now.error = 0.061;
+  CHECK(progress_text(now, 1e6, 3e6, 40) == "pass 12, error 6.1% → 2%, 0:07 elapsed");
+  now.remaining = 40;
+  CHECK(progress_text(now, 1e6, 3e6, 60) == "pass 12, error 6.1% → 2%, about 0:40 left, 0:07 elapsed");
+  // The arrow takes one column.
+  CHECK(progress_text(now, 1e6, 3e6, 41) == "pass 12, error 6.1% → 2%, about 0:40 left");
+  CHECK(progress_text(now, 1e6, 3e6, 40) == "pass 12, error 6.1% → 2%");
+  const std::string bar = progress_bar(now, 1e6, 3e6, 150);
+  CHECK(std::count(bar.begin(), bar.end(), '#') == 5);  // 7 of 47 seconds, of 40 columns
+  now.passes = 100;
+  CHECK_THAT(progress_text(now, 1e6, 3e6, 150), Contains("pass 12/100, ") && Contains("error 6.1% → 2%"));
+}
+
 TEST_CASE("path tracing shows no photons") {
   Progress now = progress_at(25, 7);
   now.photons = 0;
@@ -328,7 +347,7 @@ TEST_CASE("limits of the command line replace the scene's where they apply, and 
 TEST_CASE("outputs are those of the command line, else the scene's, else named after it") {
   Scene scene = example_scene();
   Options options;
-  options.scene = "some/where/name.json";
+  options.scene = scene.file = "some/where/name.json";
   CHECK(output_files(options, scene) == std::vector<std::string>{"name.png"});
   scene.output = "of_scene.exr";
   CHECK(output_files(options, scene) == std::vector<std::string>{"of_scene.exr"});

@@ -4,6 +4,7 @@
 
 #include "image.hpp"
 #include "small_render.hpp"
+#include "temporary_file.hpp"
 
 using namespace causticl;
 using Catch::Contains;
@@ -113,14 +114,35 @@ TEST_CASE("a folder with a study of something else is not touched, but by --rest
   restarted.wait_for("scene, seed 7");
 }
 
+TEST_CASE("a second study in a folder is refused while the first runs, and not once it was killed") {
+  const TemporaryFolder folder;
+  Process first(small_study({"--budget", "60"}), folder.path(""));
+  first.wait_for("reference, half 1");
+  folder.write("out/.causticl-1-0.tmp", "of a killed process");
+  const TemporaryFile live(folder.path("out"));
+  check_one_error(run_causticl(small_study({"--restart"}) + Words{"--quiet"}, folder.path("")), 2,
+                  "out: another study is at work in this folder");
+  CHECK(fs::exists(folder.path("out/.causticl-1-0.tmp")));
+  first.send(SIGKILL);
+  first.wait();
+  check_one_error(run_causticl(small_study({"--integrator", "pt"}) + Words{"--quiet"}, folder.path("")), 2,
+                  "out holds a study of something else: the options or the kernels (");
+  Process next(small_study(), folder.path(""));
+  next.wait_for("continues the study in out");
+  // What another process still writes is left alone.
+  const auto names = names_in(folder.path("out"));
+  CHECK(std::count_if(names.begin(), names.end(),
+                      [](const std::string& name) { return name.ends_with(".tmp"); }) == 1);
+}
+
 TEST_CASE("what study cannot take gets one line and exit code 2") {
   const TemporaryFolder folder;
   write_picture(folder.path("small.pfm"), {8, 4, std::vector<float>(96, 0.5f)}, {});
   write_picture(folder.path("black.pfm"), {12, 9, std::vector<float>(324, 0.0f)}, {});
   folder.write("file", "");
   const std::vector<std::pair<Words, std::string>> cases{
-      {{"--knobs", "alpah"}, "--knobs: there is no knob \"alpah\""},
-      {{"--budget", "0"}, "expected a positive number of seconds, found '0'"},
+      {{"--knobs", "alpah"}, "--knobs: there is no knob \"alpah\"; expected some of integrator, photons"},
+      {{"--budget", "0"}, "expected a positive time in seconds, or as in 90s, 10m or 1h30m, found '0'"},
       {{"--seeds", "1"}, "expected a whole number from 2 to 16"},
       {{"--reference", "missing.exr"}, "missing.exr"},
       {{"--reference", "small.pfm"}, "has 8x4 pixels; expected 12x9"},

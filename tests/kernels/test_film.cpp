@@ -133,7 +133,7 @@ TEST_CASE("samples that are not finite change counters and no pixel's sum") {
   CHECK(left_out == bad);
 }
 
-TEST_CASE("the film's spread, blur and alternating sum equal two-pass sums of its finite estimates") {
+TEST_CASE("the film's spread, blur and alternating sum equal two-pass ones of its finite estimates") {
   RandomInputs random(53);
   constexpr uint pixels = 256, count = 300;
   std::vector<float4> samples(pixels * count);
@@ -148,20 +148,68 @@ TEST_CASE("the film's spread, blur and alternating sum equal two-pass sums of it
   for (uint i = 0; i < pixels; ++i) {
     double sum = 0, spread = 0, alternating = 0, blur[2] = {};
     std::vector<double> finite;
+    int in_half[2] = {0, 0};
     for (uint n = 0; n < count; ++n) {
       const float4& s = samples[i * count + n];
-      if (std::isnan(s.y)) continue;
+      const int half = std::popcount(n) % 2;
+      ++in_half[half];
+      if (std::isnan(s.y)) continue;                        // the mean of blur stays as it is
       const bool minus = std::popcount(finite.size()) % 2;  // those that are left out take no sign
       finite.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
       alternating += minus ? -finite.back() : finite.back();
       sum += finite.back();
-      blur[std::popcount(n) % 2] += s.w;
+      blur[half] += (s.w - blur[half]) / in_half[half];
     }
     const double mean = sum / static_cast<double>(finite.size());
     for (const double value : finite) spread += (value - mean) * (value - mean);
-    CHECK(film[i].spread == Approx(spread).epsilon(1e-5));
+    CHECK(film[i].spread == Approx(std::sqrt(spread / static_cast<double>(finite.size()))).epsilon(1e-5));
     CHECK(film[i].alternating == Approx(alternating).epsilon(1e-5).margin(1e-3));
     for (int parity = 0; parity < 2; ++parity)
       CHECK(film[i].blur[parity] == Approx(blur[parity]).margin(1e-4));
   }
+}
+
+TEST_CASE("spread and blur are as relative to light of any brightness, and after a thousand million passes") {
+  RandomInputs random(54);
+  constexpr uint pixels = 64, count = 200;
+  std::vector<float4> samples(pixels * count);
+  for (auto& sample : samples) {
+    const float value = float(random.uniform());
+    sample = {value, value, value, float(random.uniform(-1, 2))};
+  }
+  Counters counters{};
+  const auto plain = add_samples(samples, pixels, counters);
+  for (const int power : {-110, -100, -60, 60, 100, 110}) {
+    auto scaled = samples;
+    for (auto& sample : scaled)
+      sample = {std::ldexp(sample.x, power), std::ldexp(sample.y, power), std::ldexp(sample.z, power),
+                std::ldexp(sample.w, power)};
+    const auto film = add_samples(scaled, pixels, counters);
+    CAPTURE(power, random.seed);
+    for (uint i = 0; i < pixels; ++i) {
+      CHECK(std::ldexp(film[i].spread, -power) == Approx(plain[i].spread).epsilon(1e-4));
+      CHECK(std::ldexp(film[i].blur[0], -power) == Approx(plain[i].blur[0]).epsilon(1e-4));
+    }
+  }
+
+  // Estimates of 0 and 2 in turn: mean 1, deviation 1. A sum of squares in a float would have stopped
+  // growing.
+  auto program = build_test_program(R"(
+#include "film.cl"
+kernel void go_on(global FilmPixel *film, volatile global Counters *counters, uint first, uint passes) {
+  for (uint n = first; n < first + passes; ++n) film_add(film, (real3)(2 * (n & 1u)), 2 * (n & 1u), n, counters);
+}
+)");
+  constexpr uint first = 1000000000, more = 2000000;
+  FilmPixel pixel{};
+  for (float& sum : pixel.sum) sum = first;
+  pixel.spread = 1;
+  pixel.blur[0] = pixel.blur[1] = 1;
+  auto film = test_device().upload(std::vector<FilmPixel>{pixel}, "film");
+  auto counts = test_device().upload(std::vector<Counters>(1), "counters");
+  run_kernel(program, "go_on", 1, film, counts, cl_uint(first), cl_uint(more));
+  const FilmPixel now = test_device().download<FilmPixel>(film, 1)[0];
+  CHECK(now.spread == Approx(1).epsilon(0.01));
+  CHECK(now.blur[0] == Approx(1).epsilon(0.01));
+  CHECK(now.sum[0] + double(now.low[0]) == Approx(double(first) + more).epsilon(1e-6));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "error_estimate.hpp"
 #include "film.hpp"
 #include "vector_inputs.hpp"
 
@@ -38,7 +39,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   };
   const auto variance_of = [&](const FilmPixel& p) {
     const double n = passes - p.left_out;
-    return n > 1 ? p.spread / (n * (n - 1)) : p.spread;
+    return std::pow(p.spread, 2) / std::max(n - 1, 1.0);
   };
   double variance = 0;
   const double pixels = over_window(x, y, [&](const FilmPixel& p) { variance += variance_of(p); });
@@ -46,16 +47,14 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   reach = 2;
   const double wide_pixels = over_window(x, y, [&](const FilmPixel& p) { wide += variance_of(p); });
   reach = 1;
-  int in_half[2] = {0, 0};
-  for (uint n = 0; n < passes; ++n) ++in_half[std::popcount(n) % 2];
   double noise = 0, square = 0;
   int windows = 0;
   for (int j = y - 3; j <= y + 3; j += 3)
     for (int i = x - 3; i <= x + 3; i += 3) {
       double first = 0, second = 0;
       const double count = over_window(i, j, [&](const FilmPixel& p) {
-        first += p.blur[0] / std::max(in_half[0], 1);
-        second += p.blur[1] / std::max(in_half[1], 1);
+        first += p.blur[0];
+        second += p.blur[1];
       });
       if (count == 0) continue;
       ++windows;
@@ -252,4 +251,31 @@ TEST_CASE("errors drawn are spread as the errors of pixels whose light is rare")
   CHECK(kurtosis > 4);
   CHECK(drawn_variance == Approx(variance).epsilon(0.06));
   CHECK(drawn_fourth / (drawn_variance * drawn_variance) == Approx(kurtosis).epsilon(0.12));
+}
+
+TEST_CASE("the error of a picture is relative to its light however dim or bright that is") {
+  RandomInputs random(64);
+  constexpr uint width = 32, height = 24, passes = 16;
+  std::vector<float2> samples(width * height * passes);
+  for (auto& sample : samples) {
+    sample.x = static_cast<float>(1 + normal(random) / 4);
+    sample.y = static_cast<float>(0.1 + 0.01 * normal(random));
+  }
+  const auto plain = device_errors(film_of(samples, passes), width, passes, 1, true);
+  const auto expected = picture_error(plain, 0.9);
+  REQUIRE(expected);
+  CHECK(expected->error > 0.05);
+  for (const int power : {-110, -100, -60, 60, 100, 110}) {  // 10^-33 to 10^33
+    auto scaled = samples;
+    for (auto& sample : scaled) sample = {std::ldexp(sample.x, power), std::ldexp(sample.y, power)};
+    const auto errors = device_errors(film_of(scaled, passes), width, passes, 1, true);
+    const auto error = picture_error(errors, 0.9);
+    CAPTURE(power, random.seed);
+    REQUIRE(error);
+    CHECK(error->error == Approx(expected->error).epsilon(1e-3));
+    CHECK(error->noise == Approx(expected->noise).epsilon(1e-3));
+    CHECK(error->bias == Approx(expected->bias).epsilon(1e-3));
+    for (uint i = 0; i < errors.size(); i += 7)
+      CHECK(std::ldexp(errors[i].pooled_noise, -power) == Approx(plain[i].pooled_noise).epsilon(1e-3));
+  }
 }

@@ -163,6 +163,7 @@ const std::vector<Field> fields{
     FIELD(Counters, traversal_bound),
     FIELD(Counters, media_full),
     FIELD(Counters, media_left),
+    FIELD(Counters, rays_high),
 };
 
 }  // namespace

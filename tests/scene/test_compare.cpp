@@ -125,6 +125,60 @@ TEST_CASE("a picture that knows its error is held to it") {
   CHECK_THAT(comparison_json(comparison), Catch::Contains("\"covered_90\": 0."));
 }
 
+TEST_CASE("the noise that a reference states is taken off, and that is said") {
+  std::mt19937 engine(8);
+  std::normal_distribution<double> normal;
+  const int width = 120, height = 100;
+  const Picture truth = picture_of(width, height, waves);
+  const auto noisy = [&](double sigma) {
+    Picture picture = truth;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+      const double factor = 1 + sigma * normal(engine);
+      for (std::size_t c = i; c < i + 3; ++c) picture.rgb[c] = static_cast<float>(picture.rgb[c] * factor);
+    }
+    return picture;
+  };
+  // Errors in proportion to the light, of every colour alike.
+  const Picture picture = noisy(0.05);
+  Picture reference = noisy(0.06);
+  const Comparison expected = compare_pictures(picture, truth);
+  Comparison comparison = compare_pictures(picture, reference);
+  CHECK(comparison.rmse > 1.4 * expected.rmse);
+  Comparison untold = comparison;
+  take_off_noise(untold, reference);
+  CHECK_FALSE(untold.noise_mse);
+  CHECK(untold.mse == comparison.mse);
+  CHECK_THAT(comparison_table(untold), !Catch::Contains("own noise"));
+
+  Channel noise{"error.noise", {}}, bias{"error.bias", {}}, drawn{"error.drawn", {}};
+  for (std::size_t i = 0; i < truth.rgb.size(); i += 3) {
+    const double grey = 0.2126 * truth.rgb[i] + 0.7152 * truth.rgb[i + 1] + 0.0722 * truth.rgb[i + 2];
+    noise.values.push_back(static_cast<float>(0.06 * grey));
+    drawn.values.push_back(static_cast<float>(0.06 * grey * normal(engine)));
+    bias.values.push_back(0);
+  }
+  reference.channels = {noise, {"error.pooled_noise", noise.values}, bias, drawn};
+  const TemporaryFolder folder;
+  write_picture(folder.path("r.exr"), reference, {});
+  const Picture read = read_rendered(folder.path("r.exr"));
+  comparison = compare_pictures(picture, read);
+  take_off_noise(comparison, read);
+  REQUIRE(comparison.noise_mse);
+  CHECK(comparison.rmse == Approx(expected.rmse).epsilon(0.05));
+  CHECK(comparison.relative_rmse == Approx(expected.relative_rmse).epsilon(0.05));
+  CHECK(comparison.error_90 == Approx(expected.error_90).epsilon(0.06));
+  CHECK(comparison.measured_mse == Approx(comparison.mse + *comparison.noise_mse));
+  CHECK_THAT(comparison_table(comparison), Catch::Contains("The reference's own noise, an RMSE of "));
+  CHECK_THAT(comparison_json(comparison), Catch::Contains("\"reference_noise_mse\": "));
+
+  // No further from the reference than this is from the truth: nothing can be told.
+  Comparison same = compare_pictures(read, read);
+  take_off_noise(same, read);
+  CHECK(same.mse == 0);
+  CHECK(same.error_90 == 0);
+  CHECK_THAT(comparison_table(same), Catch::Contains("differ by no more than that noise"));
+}
+
 TEST_CASE("a bias that is stated widens the bound to its side") {
   Picture truth = uniform(1, 1, 1), picture = uniform(1.1, 1.1, 1.1);
   const std::size_t pixels = picture.rgb.size() / 3;
