@@ -34,7 +34,11 @@
 #define EFFECT_SMOOTH (1u << 21)   // triangles with shading normals
 #define EFFECT_NEEDLES (1u << 22)  // triangles too thin for the cross product of their edges
 
-#define EFFECT_ALL ((1u << 23) - 1u)
+#define EFFECT_WALLS (1u << 23)    // surfaces that may part photons from visible points
+
+#define EFFECT_HORIZON (1u << 24)  // light from beyond the scene on infinite planes
+
+#define EFFECT_ALL ((1u << 25) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
 #define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture

@@ -1,5 +1,6 @@
 // What befalls a photon: its record where it lands, and how it goes on from there or ends.
 #include "direct.cl"
+#include "horizon.cl"
 #include "wave.cl"
 
 // Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
@@ -80,7 +81,9 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   real arrival = shading_normal_arrival(&surface, direction);
   real3 arrived = scaled3(arrival, flux);
   // With shadow rays the light that arrives straight from an emitter is counted there.
-  bool counted = shadow_rays && depth == 0, landed_here = keeps_photons(&bsdf, material);
+  bool far = is_far(&scene->geometry, hit, surface.position);
+  bool counted = depth == 0 && (shadow_rays || (far && lit_from_beyond(scene, random4(stream, DIM_EMITTER))));
+  bool landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
     real3 landed = arrived;
@@ -98,17 +101,29 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
   BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
+  if (far && bsdf.kind == MATERIAL_DIFFUSE)
+    next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
   bool spread = bsdf.kind == MATERIAL_DIFFUSE || bsdf_is_rough(&bsdf);
   real departure = shading_normal_departure(&surface, next.direction, n);
   flux = product3(choose3(spread, arrived, flux), scaled3(spread ? departure : 1, next.weight));
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
+  // What a far surface has scattered may be more than was emitted, and is to become less.
+  if (HAS(EFFECT_HORIZON)) before = fmin(before, (real)1);
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;
   if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
-  photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+  real3 place = surface.position;
+  if (HAS(EFFECT_WALLS) && (params->coverage & COVERAGE_WALLED)) {
+    // Where walls meet, rounding may put the place behind another one than was hit. So what is reflected leaves a little
+    // back on the way that the photon came, which is free.
+    real3 g = surface.geometric_normal;
+    bool reflected = dot3(g, direction) * dot3(g, next.direction) < 0;
+    place = along3(place, reflected ? -fmin(64 * surface.error, hit.t / 2) : 0, direction);
+  }
+  photon->ray.origin = offset_origin(place, surface.error, surface.geometric_normal, next.direction);
   photon->ray.direction = next.direction;
   photon->flux = flux;
   return events | (alive ? EVENT_ALIVE : 0u);

@@ -16,6 +16,7 @@ typedef struct {
   real3 inverse_wavelength2;  // of each channel, in um^-2
   Medium medium;
   bool emission_met;  // as in Params
+  global const WallGrid *walls;  // with EFFECT_WALLS, in kernels that are given them
 } Scene;
 
 // Every kernel that traces takes these and begins with SCENE_INIT(params).
@@ -31,7 +32,7 @@ typedef struct {
                          (params).inverse_wavelength2[2]),                                                            \
                  {convert_real3((params).extinction.xyz), convert_real3((params).scattering.xyz),                     \
                   (params).extinction.w},                                                                             \
-                 (params).emission_met != 0}
+                 (params).emission_met != 0, 0}
 
 // Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
 INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {
