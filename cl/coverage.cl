@@ -7,6 +7,7 @@
 #include "coverage_mean.cl"
 #include "grid.cl"
 #include "path_media.cl"
+#include "walls.cl"
 #include "warp.cl"
 
 // A quarter of the probes is of the disc of half the radius, which only the error estimate asks for.
@@ -19,7 +20,7 @@
 INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint sample, real *radius) {
   global const SppmPixel *state = pixels + pixel;
   bool in_turn = sample == params->pass % params->visible_points;
-  if (!params->coverage || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
+  if (!(params->coverage & COVERAGE_PROBING) || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
   *radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : state->radius2_hi);
   return true;
 }
@@ -53,7 +54,7 @@ OUTLINE bool coverage_closest(const Scene *scene, Ray ray, Hit *hit) {
 // The probe of a visible point at `position`, where the hit `here` is, on a surface whose normal `n` is on its side, for a
 // ball of that radius: what lies first of surfaces that keep photons, along the chord that is the ball's normal at the
 // place; but the primitive of `here` wherever that goes on. Surface that leans away by as much as photons must not does
-// not count (GATHER_NORMAL_COSINE).
+// not count (GATHER_NORMAL_COSINE). Beside walls it is what lies first of what no wall parts from the visible point.
 OUTLINE uint coverage_probe(const Scene *scene, Hit here, real3 position, real3 n, real radius2, real4 random,
                             uint *rays, volatile global Counters *counters) {
   uint probe = COVERAGE_PROBED;
@@ -66,7 +67,10 @@ OUTLINE uint coverage_probe(const Scene *scene, Hit here, real3 position, real3 
   real2 place = sqrt(radius2) * disc_uniform(random.xy);
   real half_chord = sqrt(fmax(radius2 - dot(place, place), (real)0)), left = 2 * half_chord;
   real3 offset = place.x * tangent + place.y * bitangent;
-  if (coverage_goes_on(&scene->geometry, here, offset)) return probe | 1u << COVERAGE_SHIFT;
+  NearWalls near;
+  bool walled = HAS(EFFECT_WALLS) && walls_near(scene->walls, position, n, sqrt(radius2), &near);
+  if (coverage_goes_on(&scene->geometry, here, offset) && !(walled && walls_between(&near, position + offset, n)))
+    return probe | 1u << COVERAGE_SHIFT;
   Ray ray = {position + offset + half_chord * n, -n};
   for (uint i = 0; i < COVERAGE_MOST_HITS; ++i) {
     Hit hit = hit_none(left);
@@ -80,8 +84,11 @@ OUTLINE uint coverage_probe(const Scene *scene, Hit here, real3 position, real3 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (keeps_photons(&bsdf, material)) {
       real cosine = fabs(dot(surface.geometric_normal, n));
-      if (!(cosine > GATHER_NORMAL_COSINE)) return probe;
-      return probe | min((uint)(1 / cosine + random.z), 2u) << COVERAGE_SHIFT;
+      bool leans = !(cosine > GATHER_NORMAL_COSINE);
+      real3 side = dot(surface.geometric_normal, n) < 0 ? -surface.geometric_normal : surface.geometric_normal;
+      if (leans && !walled) return probe;
+      if (!leans && !(walled && walls_between(&near, surface.position, side)))
+        return probe | min((uint)(1 / cosine + random.z), 2u) << COVERAGE_SHIFT;
     }
     left -= hit.t;
     ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, ray.direction);

@@ -35,8 +35,11 @@
 #define EFFECT_NEEDLES (1u << 22)  // triangles too thin for the cross product of their edges
 
 #define EFFECT_NESTED (1u << 23)   // dielectrics that touch, overlap, or hold the camera or lamps
+#define EFFECT_WALLS (1u << 24)    // surfaces that may part photons from visible points
 
-#define EFFECT_ALL ((1u << 24) - 1u)
+#define EFFECT_HORIZON (1u << 25)  // light from beyond the scene on infinite planes
+
+#define EFFECT_ALL ((1u << 26) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
 #define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture

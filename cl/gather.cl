@@ -2,6 +2,7 @@
 #include "grid.cl"
 #include "layers.cl"
 #include "medium.cl"
+#include "walls.cl"
 
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
@@ -78,10 +79,22 @@ INLINE int8 same_side(int8 photons, uint normal) {
 INLINE int8 same_side(int8 photons, uint normal) { return same_side_by_floats(photons, normal); }
 #endif
 
+// Those of the photons `inside` that no wall parts from the visible point.
+OUTLINE int8 beside_walls(global const PhotonBlock *photons, int8 inside, const NearWalls *walls) {
+  int kept[8];
+  vstore8(inside, 0, kept);
+  for (uint lane = 0; lane < 8; ++lane) {
+    if (kept[lane] == 0) continue;
+    real3 p = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]);
+    if (walls_between(walls, p, convert_real3(normal_unpack(photons->normal[lane])))) kept[lane] = 0;
+  }
+  return vload8(0, kept);
+}
+
 // Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the
-// lanes, and these to `sum` where they are full.
+// lanes, and these to `sum` where they are full. `walls` are those near the point, or null.
 INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, uint normal, real radius2,
-                         GatherLanes *lanes, Gathered *sum) {
+                         const NearWalls *walls, GatherLanes *lanes, Gathered *sum) {
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   real near_radius2 = radius2 / 4;
   uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
@@ -103,6 +116,7 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal) & (number < end - begin);
       number += 8;
       if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
+      if (HAS(EFFECT_WALLS) && walls) inside = beside_walls(photons, inside, walls);
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
@@ -205,7 +219,8 @@ INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
 // hold a photon within `reach` of `centre` along each axis, once: a window of at most n cubes along an axis of n
 // buckets has no two in one bucket.
 OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
-                            real3 reach, uint normal, real radius2, const MediumSegment *segment, Gathered *sum) {
+                            real3 reach, uint normal, real radius2, const MediumSegment *segment,
+                            const NearWalls *walls, Gathered *sum) {
   GatherLanes lanes = gather_lanes_empty();
   uint4 first, number = gather_window(grid, centre, reach, &first);
   // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
@@ -219,8 +234,10 @@ OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const P
         uint begin = part == 0 ? row[first.x] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && segment)
           gather_range_medium(sorted, begin, end, segment, radius2, sum);
+        else if (HAS(EFFECT_WALLS) && walls)
+          gather_range(sorted, begin, end, centre, normal, radius2, walls, &lanes, sum);
         else
-          gather_range(sorted, begin, end, centre, normal, radius2, &lanes, sum);
+          gather_range(sorted, begin, end, centre, normal, radius2, 0, &lanes, sum);
       }
     }
   }
@@ -232,14 +249,21 @@ INLINE Gathered gathered_none(void) {
   return sum;
 }
 
-// Sums over all photons on surfaces within sqrt(radius2) of `point`, and over those within half that
-// radius: what the two say differently of the density is a measure of how much the larger one blurs.
-INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
-                       uint normal, real radius2) {
+// Sums over all photons on surfaces within sqrt(radius2) of `point` that none of `walls` parts from it (null: there are
+// none), and over those within half that radius: what the two say differently of the density is a measure of how much the
+// larger one blurs.
+INLINE Gathered gather_beside(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
+                              uint normal, real radius2, const NearWalls *walls) {
   Gathered sum = gathered_none();
   real radius = sqrt(radius2);
-  gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, &sum);
+  gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, walls, &sum);
   return sum;
+}
+
+// The same whatever walls there are.
+INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
+                       uint normal, real radius2) {
+  return gather_beside(grid, starts, sorted, point, normal, radius2, 0);
 }
 
 // The same over all photons of the medium within sqrt(radius2) of the segment of length `length` that begins at
@@ -256,7 +280,7 @@ INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const
     segment.to = i + 1 == steps ? length : (i + 1) * step;
     real3 centre = segment.begin + (segment.from + step / 2) * segment.direction;
     gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, 0, radius2,
-                   &segment, &sum);
+                   &segment, 0, &sum);
   }
   return sum;
 }

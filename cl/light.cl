@@ -1,6 +1,7 @@
 // Emitters: choosing one, drawing a point on it, light arriving from it, photons leaving it.
 #include "delta_light.cl"
 #include "environment.cl"
+#include "horizon_emission.cl"
 #include "rng.cl"
 
 // A light's contribution to a point: radiance / pdf, not yet multiplied by BSDF, cosine and visibility.
@@ -145,7 +146,10 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     x = towards.x, y = towards.y, z = towards.z, distance = length;
     real cosine = -dot3(towards, normal);
     cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
-    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
+    // A ray to a light that is seen edge-on stops so short of it that a wall before the light may be missed. That light is
+    // less than a millionth of what the light sends elsewhere, and is left out.
+    bool edge_on = cosine < (real)1e-3f && 4 * error > (real)0.01f * distance * cosine;
+    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0 && !edge_on;
     pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
     // An error of the surface's place moves the hit by 1 / cosine times as much.
     margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
@@ -215,9 +219,12 @@ INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, r
   real sine;
   Ray ray;
   ray.direction = -environment_direction(emitter, position, &sine);
-  ray.origin = distant_origin(emitter, ray.direction, place);
-  real pdf = environment_pdf(value.density, sine);
-  *flux = pdf > 0 ? value.radiance / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
+  real pdf = environment_pdf(value.density, sine), share = 1;
+  if (HAS(EFFECT_HORIZON))
+    ray = horizon_ray(scene, emitter, ray.direction, place, &share);
+  else
+    ray.origin = distant_origin(emitter, ray.direction, place);
+  *flux = pdf > 0 ? value.radiance * share / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
   return ray;
 }
 
@@ -240,6 +247,8 @@ INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
     real share;
     Ray leaving = delta_light_ray(emitter, (real2)(u, v), &share);
+    if (HAS(EFFECT_HORIZON) && emitter->type == EMITTER_DIRECTIONAL)
+      leaving = horizon_ray(scene, emitter, leaving.direction, (real2)(u, v), &share);
     *flux = radiance * (share / max_component(radiance));
     return leaving;
   }

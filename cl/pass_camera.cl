@@ -4,6 +4,7 @@
 #include "coverage.cl"
 #include "direct.cl"
 #include "grid.cl"
+#include "horizon.cl"
 #include "layers.cl"
 #include "receivers.cl"
 #include "unlikely_lobe.cl"
@@ -51,6 +52,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
   bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
+  bool beyond = false;  // past a diffuse surface: there counts what photons do not carry, see horizon.cl
   real3 segment = (real3)(0, 0, 0);  // of a visible point in the medium
   Interior interior = interior_none();
   Boundary boundary;
@@ -81,7 +83,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       }
     }
     if (!met) {
-      if (HAS(EFFECT_ENVIRONMENT) && !counted)
+      if (HAS(EFFECT_ENVIRONMENT) && !counted && !beyond)
         radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
@@ -103,7 +105,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-    if (!counted) radiance_add(&radiance, history, throughput * emission);
+    if (!counted && !beyond) radiance_add(&radiance, history, throughput * emission);
     if (depth == params->max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
@@ -120,6 +122,10 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
+      bool far = is_far(&scene->geometry, hit, surface.position);
+      bool counts = !beyond || (far && passes_sphere(&scene->geometry, surface.position, -ray.direction));
+      bool several = HAS(EFFECT_HORIZON) && params->plane_count > 1;
+      bool goes_on = several && (!counts || random_at(stream, depth, DIM_CHANNEL).y < (real)0.5f);
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | receiver_mark(history);
       real radius;
@@ -127,10 +133,27 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
         point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
                                        path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
       history = history_after(history, false);
-      if (shadow_rays && !media_covered(scene, &boundary.media))
+      real4 chosen = path_random_at(&sampler, depth, DIM_LIGHT);
+      bool lit_here = shadow_rays || (far && lit_from_beyond(scene, chosen));
+      if (counts && lit_here && !media_covered(scene, &boundary.media))
         radiance_add(&radiance, history,
-                     direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight,
-                                  path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
+                     direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight, chosen, false, &rays,
+                                  counters));
+      // Half of the paths end where they count, for what photons bring; the others go on.
+      real times = several && counts ? 2 : 1;
+      weight *= times;
+      if (goes_on) {
+        BsdfSample next = diffuse_sample(&bsdf, &surface, ray.direction, n, random);
+        throughput *= times * next.weight;
+        if (!path_survives(&throughput, depth, random.w)) break;
+        ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
+        if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);
+        ray.direction = next.direction;
+        bsdf_pdf = 0;
+        point.normal = 0;
+        beyond = true;
+        continue;
+      }
       vstore3(surface.position, 0, point.position);
       vstore3(weight, 0, point.weight);
       break;
@@ -138,7 +161,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 
     history = history_after(history, bsdf_is_specular(&bsdf));
     bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
-    bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf);
+    bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf) && !beyond;
     if (weigh_lights && !media_covered(scene, &boundary.media)) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, history,
@@ -196,11 +219,12 @@ OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, 
 
 // Traces the camera paths of a chunk. Where they end side by side, one item of a work-group traces those of all.
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
-                         Params params, global const SppmPixel *pixels) {
+                         Params params, global const SppmPixel *pixels, global const WallGrid *walls) {
   uint index = get_global_id(0), rays = 0, paths = params.pixel_count * params.visible_points;
 #if RECEIVERS_SIDE_BY_SIDE
   if (get_local_id(0) != 0 || index >= paths) return;
   SCENE_INIT(params);
+  if (HAS(EFFECT_WALLS)) scene.walls = walls;
   uint end = min(index + (uint)get_local_size(0), paths);
   for (; index < end; index += WAVE_CAPACITY)
     rays += camera_paths(&scene, &params, index, min(index + WAVE_CAPACITY, end), visible_points, counters, pixels);
@@ -209,6 +233,7 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
   local uint group_rays[LARGEST_WORK_GROUP];
   if (index < paths) {
     SCENE_INIT(params);
+    if (HAS(EFFECT_WALLS)) scene.walls = walls;
     rays = camera_path(&scene, &params, index, visible_points, counters, pixels, 0, 0);
   }
   group_count_rays(rays, group_rays, counters);

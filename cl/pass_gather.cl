@@ -64,7 +64,8 @@ INLINE void layers_gathered(Radiance *radiance, const Gathered *sum, real3 weigh
 // params.radius2 > 0 that radius holds for all pixels.
 kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel *pixels,
                            global FilmPixel *film, global const uint *starts, global const PhotonBlock *sorted,
-                           volatile global Counters *counters, PhotonGrids grids, Params params) {
+                           volatile global Counters *counters, PhotonGrids grids, Params params,
+                           global const WallGrid *wall_grid) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count) return;
   uint index = params.first_pixel + i;
@@ -75,6 +76,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   Radiance radiance = radiance_none();
   real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
+  real widest = sqrt(radius2) * fmax((real)params.indirect_radius, (real)1);
   uint found = 0;
   // What the flux around a point counts for: over the area, in that of the own radius, that surfaces cover.
   real share_of_kind[PHOTON_KINDS], near_share_of_kind[PHOTON_KINDS];
@@ -96,6 +98,11 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     real3 weight = vload3(0, point.weight);
     if (!(max_component(weight) > 0)) continue;
     bool in_medium = HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM);
+    NearWalls near;
+    const NearWalls *walls = 0;
+    if (HAS(EFFECT_WALLS) && !in_medium &&
+        walls_near(wall_grid, vload3(0, point.position), convert_real3(normal_unpack(point.normal)), widest, &near))
+      walls = &near;
 #pragma unroll
     for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
@@ -108,8 +115,8 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
         share = weight * (phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT);
         share_near = share;
       } else {
-        sum = gather(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
-                     radius2 * kind_radius2(&params, kind));
+        sum = gather_beside(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
+                            radius2 * kind_radius2(&params, kind), walls);
         share = weight * share_of_kind[kind];
         share_near = weight * near_share_of_kind[kind];
       }

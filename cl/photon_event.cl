@@ -1,6 +1,7 @@
 // What befalls a photon: its record where it lands, and how it goes on from there or ends.
 #include "adjoint_bsdf.cl"
 #include "direct.cl"
+#include "horizon.cl"
 #include "wave.cl"
 
 // Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
@@ -107,7 +108,9 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there.
-  bool counted = shadow_rays && depth == 0, landed_here = keeps_photons(&bsdf, material);
+  bool far = is_far(&scene->geometry, hit, surface.position);
+  bool counted = depth == 0 && (shadow_rays || (far && lit_from_beyond(scene, random4(stream, DIM_EMITTER))));
+  bool landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
     real3 landed = scaled3(shading_normal_arrival(&surface, direction), flux);
@@ -126,20 +129,30 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
   if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
+  if (far && bsdf.kind == MATERIAL_DIFFUSE)
+    next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
   flux = product3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
+  // What a far surface has scattered may be more than was emitted, and is to become less.
+  if (HAS(EFFECT_HORIZON)) before = fmin(before, (real)1);
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;
   if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
+  real3 place = surface.position;
+  if (HAS(EFFECT_WALLS) && (params->coverage & COVERAGE_WALLED)) {
+    // Where walls meet, rounding may put the place behind another one than was hit. So what is reflected leaves a little
+    // back on the way that the photon came, which is free.
+    real3 g = surface.geometric_normal;
+    bool reflected = dot3(g, direction) * dot3(g, next.direction) < 0;
+    place = along3(place, reflected ? -fmin(64 * surface.error, hit.t / 2) : 0, direction);
+  }
+  photon->ray.origin = offset_origin(place, surface.error, surface.geometric_normal, next.direction);
   if (nested(scene)) {
-    photon->ray.origin =
-        media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
+    photon->ray.origin = media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
     photon->interior = interior_of_stack(scene, &photon->media.stack);
-  } else {
-    photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
   }
   photon->ray.direction = next.direction;
   photon->flux = flux;

@@ -37,6 +37,7 @@ struct alignas(16) uint4 {
 #include "pass_records.h"
 #include "pixel_records.h"
 #include "photon_records.h"
+#include "wall_records.h"
 
 #ifndef __OPENCL_VERSION__
 }  // namespace causticl

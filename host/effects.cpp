@@ -8,6 +8,7 @@
 #include "error.hpp"
 #include "object_triangles.hpp"
 #include "spelling.hpp"
+#include "walls_reason.hpp"
 
 namespace causticl {
 namespace {
@@ -84,6 +85,11 @@ std::string shadow_rays_reason(const Scene& scene) {
   return environment.empty() ? "" : key + environment;
 }
 
+/// Planes that light from beyond the scene reaches to the horizon.
+std::string horizon_reason(const Scene& scene) {
+  return has_infinite_light(scene) ? by_shape(scene, {Shape::plane}) : "";
+}
+
 /// Light becomes a caustic by what is not diffuse.
 std::string aimed_photons_reason(const Scene& scene) {
   if (!aims_photons(scene)) return "";
@@ -157,6 +163,8 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_SMOOTH, "smooth", "shading normals", smooth_reason(scene)},
       {EFFECT_NEEDLES, "needles", "thin triangles", needles_reason(scene)},
       {EFFECT_NESTED, "nested", "dielectrics that touch or hold something", find_dielectrics(scene).reason},
+      {EFFECT_WALLS, "walls", "walls between photons and visible points", walls_reason(scene)},
+      {EFFECT_HORIZON, "horizon", "light from beyond the scene on infinite planes", horizon_reason(scene)},
   };
 }
 

@@ -35,6 +35,32 @@ float4 scene_sphere(const TreeInput& tree) {
   return to_float4(centre, 1.0001 * length(0.5 * (high - low)) + 1e-6 * largest);
 }
 
+/// The sphere that light from beyond the scene has to cover, all that is bounded in its midst. What infinite
+/// planes are outside of it is far to kernels (cl/horizon.cl), which read it from the records of planes.
+/// Where nothing is bounded it lies about the camera, as large as its distance to the next plane.
+float4 light_sphere(const Scene& scene, World& world) {
+  if (world.plane_count == 0) return scene_sphere(world.tree);
+  float4 sphere{};
+  if (world.tree.triangles.empty() && world.tree.shapes.empty()) {
+    double radius = INFINITY;
+    for (uint i = 0; i < world.plane_count; ++i) {
+      const Shape& plane = world.shapes[i];
+      const float4* rows = plane.to_world;
+      const Vec3 n{plane.to_local[2].x, plane.to_local[2].y, plane.to_local[2].z};
+      const double distance =
+          std::fabs(dot(normalize(n), scene.camera.origin - Vec3{rows[0].w, rows[1].w, rows[2].w}));
+      if (distance > 0) radius = std::min(radius, distance);
+    }
+    sphere = to_float4(scene.camera.origin, std::isfinite(radius) ? radius : 1);
+  } else {
+    sphere = scene_sphere(world.tree);
+  }
+  constexpr float around = 1.5f;  // what lies just beside bounded things gets as much light as these
+  sphere.w *= around;
+  for (uint i = 0; i < world.plane_count; ++i) world.shapes[i].sphere = sphere;
+  return sphere;
+}
+
 double square(float x) { return static_cast<double>(x) * x; }
 
 Emitter delta_emitter(const DeltaLight& light, float4 sphere) {
@@ -105,7 +131,7 @@ std::uint64_t share_numbers(World& world) {
 void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world) {
   const bool environment = scene.environment && is_lit(*scene.environment);
   if (environment || !scene.lights.empty()) {
-    const float4 sphere = scene_sphere(world.tree);
+    const float4 sphere = light_sphere(scene, world);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       if (!is_lit(scene.lights[i])) continue;
       world.emitters.push_back(delta_emitter(scene.lights[i], sphere));

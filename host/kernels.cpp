@@ -21,12 +21,13 @@ constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
 
 /// What the kernels of each pass ask for with HAS().
 const std::map<std::string, unsigned> effects_read{
-    {"camera",
-     geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS | OUTPUT_LAYERS},
+    {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS |
+                   EFFECT_WALLS | EFFECT_HORIZON | OUTPUT_LAYERS},
     {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS |
-                   EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | OUTPUT_LAYERS},
+                   EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | EFFECT_WALLS | EFFECT_HORIZON |
+                   OUTPUT_LAYERS},
     {"grid", 0},
-    {"gather", EFFECT_MEDIUM | EFFECT_GUIDED_PHOTONS | OUTPUT_LAYERS},
+    {"gather", EFFECT_MEDIUM | EFFECT_GUIDED_PHOTONS | EFFECT_WALLS | OUTPUT_LAYERS},
     {"film", 0},
     {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS | OUTPUT_LAYERS},
 };

@@ -4,14 +4,14 @@
 #include <map>
 
 namespace causticl {
-namespace {
 
-/// Whether photons that land on the material may be stored: cl/photon_event.cl.
 bool stores_photons(const MaterialSpec& material) {
   const bool diffuse = material.kind == MaterialSpec::Kind::diffuse || material.alpha_diffuse;
   return material.kind == MaterialSpec::Kind::plastic || (diffuse && material.color_texture >= 0) ||
          (diffuse && max_component(material.color) > 0);
 }
+
+namespace {
 
 /// Why no photon would ever be stored, or found by a camera path.
 std::string why_no_photons(const Scene& scene) {

@@ -8,6 +8,9 @@
 
 namespace causticl {
 
+/// Whether photons that land on the material may be stored: cl/photon_event.cl.
+bool stores_photons(const MaterialSpec& material);
+
 /// A pass is a program: "photon" is cl/pass_photon.cl.
 struct PassPlan {
   std::string name;

@@ -104,14 +104,16 @@ bool has_visible_light(const Scene& scene) {
          });
 }
 
+bool has_infinite_light(const Scene& scene) {
+  return (scene.environment && is_lit(*scene.environment)) ||
+         std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
+           return light.kind == DeltaLight::Kind::directional && is_lit(light);
+         });
+}
+
 bool aims_photons(const Scene& scene) {
-  const bool distant_light =
-      (scene.environment && is_lit(*scene.environment)) ||
-      std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
-        return light.kind == DeltaLight::Kind::directional && is_lit(light);
-      });
   return scene.renderer.integrator == Integrator::sppm &&
-         scene.renderer.aimed_photons.value_or(distant_light);
+         scene.renderer.aimed_photons.value_or(has_infinite_light(scene));
 }
 
 bool has_motion(const Scene& scene) {

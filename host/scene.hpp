@@ -151,6 +151,9 @@ bool has_light(const Scene& scene);
 /// Whether a ray can meet light: of a surface or the environment.
 bool has_visible_light(const Scene& scene);
 
+/// Whether light comes from beyond the scene: of a directional light or the environment.
+bool has_infinite_light(const Scene& scene);
+
 /// Whether anything moves while the shutter is open.
 bool has_motion(const Scene& scene);
 

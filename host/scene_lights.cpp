@@ -1,6 +1,4 @@
 // The entries of `lights`.
-#include <algorithm>
-
 #include "scene_loader.hpp"
 
 namespace causticl {
@@ -17,16 +15,6 @@ Vec3 read_direction(const JsonReader& json) {
   return normalize(direction);
 }
 
-// Photons from beyond the scene start on a disc as large as all that is bounded.
-void refuse_infinite_planes(const JsonReader& json, const char* light, const Scene& scene) {
-  if (scene.renderer.integrator != Integrator::sppm) return;
-  const auto plane = std::find_if(scene.objects.begin(), scene.objects.end(),
-                                  [](const Object& object) { return object.shape == Object::Shape::plane; });
-  if (plane == scene.objects.end()) return;
-  json.fail(std::string(light) + " cannot emit photons to all of the infinite plane " + plane->pointer +
-            "; use a rectangle in its place, or the integrator \"pt\"");
-}
-
 void add_delta_light(const JsonReader& json, Kind kind, Scene& scene) {
   DeltaLight light;
   light.kind = kind;
@@ -35,7 +23,6 @@ void add_delta_light(const JsonReader& json, Kind kind, Scene& scene) {
     json.check_keys({"type", "direction", "irradiance"});
     light.direction = read_direction(json.at("direction"));
     light.intensity = read_color(json.at("irradiance"), non_negative_number);
-    if (is_lit(light)) refuse_infinite_planes(json, "a directional light", scene);
   } else {
     if (kind == Kind::point)
       json.check_keys({"type", "position", "intensity"});
@@ -102,7 +89,6 @@ void add_environment(const JsonReader& json, SceneLoader& loader) {
     environment.map = loader.radiance_map(*path);
   else
     environment.map = constant_map(read_color(json.at("radiance"), non_negative_number));
-  if (is_lit(environment)) refuse_infinite_planes(json, "an environment", scene);
   scene.environment = std::move(environment);
 }
 

@@ -8,6 +8,7 @@
 #include "effects.h"
 #include "effects.hpp"
 #include "params.hpp"
+#include "walls.hpp"
 
 namespace causticl {
 namespace {
@@ -24,7 +25,8 @@ constexpr double segment_share = 0.3;
 
 Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
            std::uint32_t seed, bool with_photons, std::optional<double> first_radius)
-    : spec_(scene.renderer),
+    : scene_(scene),
+      spec_(scene.renderer),
       device_(device),
       film_(film),
       device_scene_(device_scene),
@@ -38,6 +40,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
            with_photons && (effect_bits(find_effects(scene)) & EFFECT_AIMED_PHOTONS)),
       photon_map_(device_scene, device, programs, counters_, guide_, aim_),
       with_photons_(with_photons && params_.emitter_count > 0),
+      walled_(with_photons_ && (effect_bits(find_effects(scene)) & EFFECT_WALLS)),
       visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
                             ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
                            record_scale(programs.options().precision)),
@@ -45,7 +48,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
-  params_.coverage = spec_.boundary_correction && with_photons_;
+  params_.coverage =
+      (spec_.boundary_correction && with_photons_ ? COVERAGE_PROBING : 0) | (walled_ ? COVERAGE_WALLED : 0);
   params_.alpha = static_cast<float>(spec_.alpha);
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
@@ -64,6 +68,8 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   trace_camera_.setArg(first_argument_ + 1, counters_);
   trace_camera_.setArg(first_argument_ + 3, pixels_);
 
+  walls_ = device_.upload(no_walls(), "walls");
+  trace_camera_.setArg(first_argument_ + 4, walls_);
   first_radius_ = first_radius ? *first_radius : choose_first_radius(programs, device_scene.extent);
   guide_.set_radius(first_radius_);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
@@ -160,6 +166,17 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   return radius;
 }
 
+/// Lists the walls for balls of the first radius, than which no later one is larger; anew for each pass where
+/// something moves.
+void Sppm::place_walls(std::uint32_t pass) {
+  if (!walled_ || (pass > 0 && !has_motion(scene_))) return;
+  const double time =
+      has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
+  const double widest = first_radius_ * std::max(1.0, indirect_radius(spec_));
+  walls_ = device_.upload(wall_grid(scene_, build_world(scene_, time), time, widest), "walls");
+  trace_camera_.setArg(first_argument_ + 4, walls_);
+}
+
 /// Equation (9) with a pixel's photons as they are on average, or Knaus & Zwicker 2011, equation 14:
 /// R'^2 = R^2 (i + alpha) / (i + 1) for i = 1, 2, ...
 void Sppm::advance_schedule(std::uint32_t pass) {
@@ -174,6 +191,7 @@ void Sppm::advance_schedule(std::uint32_t pass) {
 void Sppm::enqueue_pass(std::uint32_t pass) {
   start_pass(pass);
   set_scene_arguments(trace_camera_, device_scene_);
+  place_walls(pass);
   // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
   params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
   emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
@@ -190,7 +208,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
     params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, end - first));
     trace_visible_points(points, params_);
     set_arguments(gather_photons_, points, pixels_, film_.buffer(), photon_map_.starts(),
-                  photon_map_.sorted(), counters_, photon_map_.grids(), params_);
+                  photon_map_.sorted(), counters_, photon_map_.grids(), params_, walls_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
     guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
   }

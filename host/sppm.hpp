@@ -33,6 +33,7 @@ class Sppm : public PassIntegrator {
   double first_radius() const { return first_radius_; }
 
  private:
+  const Scene& scene_;
   const RendererSpec spec_;
   Device& device_;
   Film& film_;
@@ -44,9 +45,11 @@ class Sppm : public PassIntegrator {
   PhotonAim aim_;
   PhotonMap photon_map_;
   bool with_photons_;
+  bool walled_;       // whether the scene calls for walls
   std::optional<std::uint32_t> started_pass_;  // whose photons are in the map
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;
+  cl::Buffer walls_;  // a WallGrid
   std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer own_visible_points_, pixels_;
   FirstHits first_hits_;
@@ -60,6 +63,7 @@ class Sppm : public PassIntegrator {
   const cl::Buffer& visible_points();
   void trace_visible_points(const cl::Buffer& points, const Params& params);
   double choose_first_radius(Programs& programs, double extent);
+  void place_walls(std::uint32_t pass);
   void advance_schedule(std::uint32_t pass);
 };
 

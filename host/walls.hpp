@@ -1,0 +1,20 @@
+// The walls that may part a visible point from the photons around it: the lists that cl/walls.cl reads.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene.hpp"
+#include "world.hpp"
+
+namespace causticl {
+
+/// A WallGrid with its lists and walls, as cl/wall_records.h lays them out, for balls of at most `radius`
+/// about visible points of the scene at `time`. A cell lists the walls near it that have surface on both
+/// sides which may hold photons of one normal: nothing else can part photons from a visible point.
+std::vector<std::byte> wall_grid(const Scene& scene, const World& world, double time, double radius);
+
+/// The grid of a scene without walls.
+std::vector<std::byte> no_walls();
+
+}  // namespace causticl
