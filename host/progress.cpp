@@ -62,8 +62,15 @@ std::string clock_time(double seconds) {
 }
 
 std::string percentage(double share) {
+  if (!std::isfinite(share)) return "unknown";
   const double percent = 100 * share;
   return formatted("%.*f%%", percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0, percent);
+}
+
+std::string unknown_text(double share) {
+  return percentage(share) +
+         " of the pixels found no photon yet, though photons are stored around what they see: their error is "
+         "unknown and counts as wrong; more passes, more photons or a larger renderer.radius find some";
 }
 
 std::string progress_text(const Progress& now, double photons_per_second, double rays_per_second, int width) {
@@ -151,12 +158,16 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
                statistics.seconds, reason(statistics.stop));
   if (statistics.error) {
     const PictureError& error = *statistics.error;
-    std::fprintf(stream_, "causticl: error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
-                 percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
-                 percentage(error.noise).c_str(), percentage(error.bias).c_str());
+    std::string bound = "unknown for " + percentage(statistics.confidence) + " of the pixels";
+    if (std::isfinite(error.error))
+      bound = percentage(error.error) + " or less in " + percentage(statistics.confidence) +
+              " of the pixels (noise alone " + percentage(error.noise) + ", bias alone " +
+              percentage(error.bias) + ")";
+    std::fprintf(stream_, "causticl: error %s", bound.c_str());
     if (statistics.photons)
       std::fprintf(stream_, ", %s photons", si_number(static_cast<double>(statistics.photons)).c_str());
     std::fputs("\n", stream_);
+    if (error.unknown > 0) std::fprintf(stream_, "causticl: note: %s\n", unknown_text(error.unknown).c_str());
   }
   for (const auto& warning : fault_warnings(statistics.faults))
     std::fprintf(stream_, "causticl: warning: %s\n", warning.c_str());
