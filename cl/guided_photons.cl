@@ -16,12 +16,15 @@
 #include "work_group.cl"
 
 // What guided photons read and write beside the map: `seeds` holds the numbers of the scouts that became seeds, in any
-// order, `accepted` how many copies of each were; for `marks` see marked_cells.cl.
+// order, `accepted` how many copies of each were; for `marks` see marked_cells.cl, for `emission` emission_map.cl, which
+// has no cells where photons start everywhere.
 typedef struct {
   global uint2 *seeds;
   volatile global uint *accepted;
   global const uint *marks;
   Grid cells;
+  global const EmissionCell *emission;
+  uint emission_cells;
 } Guide;
 
 // Of photon number `number` of a launch: its path, which copy it is, its place in the list of seeds, and its share of
@@ -33,7 +36,7 @@ typedef struct {
 
 INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint number) {
   PhotonStart start = {number, 0, 0, 0, 1};
-  if (params->photon_role < PHOTONS_COPIES) return start;
+  if (params->photon_role != PHOTONS_COPIES && params->photon_role != PHOTONS_SEEDS) return start;
   bool copies = params->photon_role == PHOTONS_COPIES;
   number = min(number, params->photon_count - 1);  // lanes beyond the last photon fill a vector
   start.seed = copies ? number / params->photon_copies : number;
@@ -50,10 +53,12 @@ INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint n
 // Decides which records of the last event stay, by where they lie, and keeps the lists of seeds and of accepted copies.
 OUTLINE void wave_guide(const Guide *guide, const Params *params, uint count, Wave *wave,
                         volatile global Counters *counters) {
-  bool scouts = params->photon_role == PHOTONS_SCOUTS;
+  bool learning = params->photon_role == PHOTONS_TO_LEARN_BY, scouts = learning || params->photon_role == PHOTONS_SCOUTS;
+  // Light that shadow rays bring teaches nothing.
+  uint wanted = learning ? EVENT_STORED : EVENT_STORED | EVENT_LANDED;
   uint seeds = 0;
   for (uint i = 0; i < count; ++i) {
-    if (!(wave->events[i] & (EVENT_STORED | EVENT_LANDED))) continue;
+    if (!(wave->events[i] & wanted)) continue;
     bool marked = !(wave->normal[i] & IN_MEDIUM) &&
                   is_marked(guide->marks, guide->cells, normal_unpack(wave->normal[i]),
                             (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]));

@@ -237,8 +237,8 @@ INLINE uint photon_emitter(const Scene *scene, RandomStream stream) {
 // Starts a photon of an emitter: point by area, direction by cosine, which u and v draw, uniform numbers. Returns its
 // ray; *flux is relative to Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point
 // and directional lights; about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
-INLINE Ray photon_emit_from(const Scene *scene, uint chosen, RandomStream stream, real u, real v, real3 *flux) {
-  real4 choice = random4(stream, DIM_EMITTER);
+// `choice` are the numbers of DIM_EMITTER, by which the emitter was chosen too.
+INLINE Ray photon_emit_from(const Scene *scene, uint chosen, real4 choice, real u, real v, real3 *flux) {
   global const Emitter *emitter = scene->emitters + chosen;
   global const float *power = (global const float *)&emitter->radiance;
   real3 normal, radiance = (real3)(power[0], power[1], power[2]);

@@ -240,6 +240,32 @@ kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, 
 #endif
 }
 
+// distances[i] = how far it is from visible point i to what lies around it, along a random ray: infinite where it meets
+// nothing, negative where there is no visible point. For choosing the first radius.
+kernel void surroundings(SCENE_PARAMETERS, global const VisiblePoint *visible_points, volatile global Counters *counters,
+                         Params params, global float *distances) {
+  uint i = get_global_id(0);
+  if (i >= params.pixel_count * params.visible_points) return;
+  SCENE_INIT(params);
+  VisiblePoint point = visible_points[i];
+  distances[i] = -1;
+  if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0)) return;
+  RandomStream stream = {params.seed, params.pass, i, 0, 0};
+  real4 random = random4(stream, DIM_COVERAGE);
+  real3 position = vload3(0, point.position), n = (real3)(0, 0, 1), direction = sphere_uniform(random.xy);
+  Ray ray = {position, direction};
+  if (!(HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM))) {
+    n = normalize(convert_real3(normal_unpack(point.normal)));
+    ray.direction = hemisphere_cosine_by(random.x, random.y, n);
+    // The normal is coarse, and the point's error is not known.
+    ray.origin = position + (real)1e-5f * max_component(fabs(position)) * n;
+  }
+  Hit hit = hit_none(INFINITY);
+  bool met = geometry_closest(&scene.geometry, ray, &hit);
+  count_faults(hit.faults, counters);
+  distances[i] = met ? (float)hit.t : INFINITY;
+}
+
 #ifdef CAMERA_PACKETS
 // What the paths of trace_camera meet first. Every sixteenth item traces a packet, so that work-groups stay small pieces
 // of the whole.

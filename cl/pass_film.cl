@@ -151,6 +151,7 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   error.pooled_noise = sqrt(share * bound) / unit;
   error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f)) / unit;
   error.drawn = half_difference(p, passes);
+  if (p->unknown != 0) error.bias = INFINITY;
   return error;
 }
 

@@ -3,6 +3,7 @@
 #include "gather.cl"
 #include "marked_cells.cl"
 #include "sppm.cl"
+#include "unknown_error.cl"
 #include "visible_point.cl"
 
 // The photons around the segment of visible point `i` in the medium.
@@ -134,17 +135,26 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     for (uint k = 0; k < LAYER_COUNT; ++k) radiance.layer[k] /= params.visible_points;
   film_add_radiance(film, index, params.width * params.height, &radiance, luminance(blur.x, blur.y, blur.z),
                     params.pass, counters);
-  pixels[index] = params.radius2 > 0 ? pixel : sppm_update(pixel, found, params.alpha);
+  if (found > 0) film[index].unknown = 0;
+  pixels[index] = params.radius2 > 0 ? sppm_count(pixel, found) : sppm_update(pixel, found, params.alpha);
 }
 
-// Marks the cells around visible points on surfaces, for guided photons: see mark_cells.
+// Marks the cells around visible points on surfaces: see mark_cells.
 kernel void mark_visible_points(global const VisiblePoint *visible_points, volatile global uint *marks, Grid cells,
                                 float reach, uint count) {
   uint i = get_global_id(0);
-  if (!HAS(EFFECT_GUIDED_PHOTONS) || i >= count) return;
+  if (i >= count) return;
   VisiblePoint point = visible_points[i];
   if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0) || (point.normal & IN_MEDIUM)) return;
   mark_cells(marks, cells, normal_unpack(point.normal), vload3(0, point.position), reach);
+}
+
+// Adds to *marked the photons on surfaces that landed in marked cells.
+kernel void count_marked(global const Photon *photons, global const uint *marks, volatile global uint *marked, Grid cells,
+                         uint count) {
+  uint i = get_global_id(0);
+  if (i >= count || (photons[i].normal & IN_MEDIUM)) return;
+  if (is_marked(marks, cells, normal_unpack(photons[i].normal), vload3(0, photons[i].position))) atomic_inc(marked);
 }
 
 // Every pixel's first radius.

@@ -1,6 +1,7 @@
 // Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
 // medium scatters them.
 #include "aimed_photons.cl"
+#include "emission_map.cl"
 #include "guided_photons.cl"
 #include "photon_event.cl"
 #include "kdtree_wave.cl"
@@ -27,6 +28,8 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
   const Scene scene = *from;
   const Params params = *settings;
   global const AimCell *cells = aims->cells;
+  global const EmissionCell *emission = guide->emission;
+  const uint emission_cells = guide->emission_cells;
   for (uint i = alive; i < alive + count; ++i) {
     PhotonStart start = {first + i - alive, 0, 0, 0, 1};
     if (HAS(EFFECT_GUIDED_PHOTONS)) {
@@ -39,19 +42,30 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
     wave->index[i] = start.path;
     wave->depth[i] = 0;
     wave->flux[0][i] = start.share;  // until the photon has a flux of its own
-    wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
+    if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0) {
+      RandomStream stream = wave_stream(&params, wave, i);
+      real4 choice = random4(stream, DIM_EMITTER);
+      uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
+      wave->flux_rg[i] = cell;  // until the photon has a record
+      wave->flux[0][i] *= emission[cell].share;
+      wave->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
+    } else {
+      wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
+    }
   }
 #if VECTORISED(LOOPED_EMISSION)
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = alive; i < alive + count; ++i) {
     RandomStream stream = wave_stream(&params, wave, i);
-    real4 random = random4(stream, DIM_EMISSION);
+    real4 random = random4(stream, DIM_EMISSION), choice = random4(stream, DIM_EMITTER);
     real u = random.x, v = random.y, share = 1;
     uint emitter = wave->primitive[i];
+    if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0)
+      choice = emission_numbers(emission + wave->flux_rg[i], choice, &u, &v);
     if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, aim_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
-    Ray ray = photon_emit_from(&scene, emitter, stream, u, v, &flux);
+    Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon;
@@ -214,7 +228,7 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
       wave_guide(guide, params, alive, &wave, counters);
     if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)
       wave_learn(scene, params, &wave, alive, aim);
-    else
+    else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
       wave_store(alive, &wave, photons, params->photon_capacity, counters);
     for (uint i = 0; i < alive; ++i) ++wave.depth[i];
     alive = wave_compact(0, alive, &wave);
@@ -228,7 +242,8 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
 // `params` is asked for by guided photons, and at the end by aimed ones.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
                           Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
-                          Grid cells, global const AimCell *aim_cells, volatile global uint *aim_landed) {
+                          Grid cells, global const EmissionCell *emission, uint emission_cells,
+                          global const AimCell *aim_cells, volatile global uint *aim_landed) {
   uint first = get_global_id(0), count = 1;
   if (WAVE_CAPACITY > 1u) {
     if (get_local_id(0) != 0 || params.photon_count == 0) return;
@@ -242,9 +257,25 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   if (first >= params.photon_count) return;
   SCENE_INIT(params);
   uint end = first + min(count, params.photon_count - first);
-  Guide guide = {seeds, accepted, marks, cells};
+  Guide guide = {seeds, accepted, marks, cells, emission, emission_cells};
   Aim aim = {aim_cells, aim_landed};
   uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
                          counters);
   count_rays(rays, counters);
+}
+
+// numbers[i] = the START_NUMBERS of seed number i of the list, as its photon used them. Of scouts PHOTONS_TO_LEARN_BY.
+kernel void seed_numbers(global const uint2 *seeds, global const EmissionCell *emission, uint emission_cells,
+                         global float *numbers, uint seed, uint pass, uint count) {
+  uint i = get_global_id(0);
+  if (!HAS(EFFECT_GUIDED_PHOTONS) || i >= count) return;
+  RandomStream stream = {seed ^ PHOTON_SEED, pass, seeds[i].x, 0, 0};
+  real4 choice = random4(stream, DIM_EMITTER), random = random4(stream, DIM_EMISSION);
+  real u = random.x, v = random.y;
+  if (emission_cells > 0) {
+    uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
+    choice = emission_numbers(emission + cell, choice, &u, &v);
+  }
+  global float *point = numbers + i * START_NUMBERS;
+  point[0] = choice.x, point[1] = choice.y, point[2] = choice.z, point[3] = u, point[4] = v;
 }

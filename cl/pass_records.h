@@ -9,6 +9,7 @@
 #define PHOTONS_SCOUTS 2u
 #define PHOTONS_COPIES 3u
 #define PHOTONS_SEEDS 4u
+#define PHOTONS_TO_LEARN_BY 5u  // scouts of emission_map.cl, which leave nothing but the list of seeds
 
 // Cells along each side of the square of numbers by which photons leave an emitter, and such squares at most: emitters
 // beyond share one with others.
@@ -72,6 +73,19 @@ typedef struct {
   float share;  // of the flux that a photon would have, for one that leaves by this cell
 } AimCell;
 CHECK_SIZE(AimCell, 12);
+
+// The numbers that decide how a photon starts: which emitter, two of the place, two of the direction.
+#define START_NUMBERS 5u
+
+// A cell of emission_map.cl: a box of the unit cube of these numbers. The cells of a map fill the cube.
+typedef struct {
+  float low[START_NUMBERS], size[START_NUMBERS];
+  uint end;     // this cell and all before it own the random numbers below end, of EMISSION_NUMBERS
+  float share;  // of the flux that a photon would have, for one that starts in the cell
+} EmissionCell;
+CHECK_SIZE(EmissionCell, 48);
+
+#define EMISSION_NUMBERS 16777216u
 
 // Counts that kernels add to; each wraps at 2^32 and is read as differences. Rays, of which a pass may have more, have
 // upper bits besides.

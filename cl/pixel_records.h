@@ -21,8 +21,9 @@ typedef struct {
   float spread;   // standard deviation of the estimates' luminance from their mean, over their number
   float blur[2];  // what luminance owes to the photons' kernel, the mean of each half of the passes
   float alternating;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
+  uint unknown;       // 1 where the error of the mean cannot be told: see unknown_error.cl
 } FilmPixel;
-CHECK_SIZE(FilmPixel, 44);
+CHECK_SIZE(FilmPixel, 48);
 
 // The layers of a picture, see layers.cl.
 #define LAYER_DIRECT 0u
@@ -43,7 +44,7 @@ typedef struct {
   float luminance;     // the mean of its estimates
   float noise;         // standard deviation of that by the pixel's own passes: its course tells that of the picture's noise
   float pooled_noise;  // the same, such that it is right of this pixel: see pixel_error of pass_film.cl
-  float bias;          // absolute
+  float bias;          // absolute; infinite where the error cannot be told
   float drawn;         // an error as noise makes it: half by how much one half of the passes is brighter than the other
 } PixelError;
 CHECK_SIZE(PixelError, 20);

@@ -5,6 +5,14 @@
 // Photons found so far by a pixel, as a number.
 INLINE float sppm_photons(SppmPixel pixel) { return pixel.photons_high * 4294967296.0f + pixel.photons_low; }
 
+// With so many more found.
+INLINE SppmPixel sppm_count(SppmPixel pixel, uint found) {
+  ulong photons = add_sat(upsample(pixel.photons_high, pixel.photons_low), (ulong)found);
+  pixel.photons_high = (uint)(photons >> 32);
+  pixel.photons_low = (uint)photons;
+  return pixel;
+}
+
 // The pixel's statistics after `found` photons in a pass:
 //   N' = N + alpha M,  R'^2 = R^2 (N + alpha M) / (N + M).
 // N is alpha times the number of all photons so far, which is kept as an integer. The quotient is
@@ -31,8 +39,5 @@ INLINE SppmPixel sppm_update(SppmPixel pixel, uint found, float alpha) {
     pixel.radius2_hi = FLT_MIN;
     pixel.radius2_lo = 0;
   }
-  ulong photons = add_sat(upsample(pixel.photons_high, pixel.photons_low), (ulong)found);
-  pixel.photons_high = (uint)(photons >> 32);
-  pixel.photons_low = (uint)photons;
-  return pixel;
+  return sppm_count(pixel, found);
 }

@@ -157,7 +157,7 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_MOTION, "motion", "motion blur", motion_reason(scene)},
       {EFFECT_MEDIUM, "medium", "medium", fills(scene.medium) ? "/medium" : ""},
       {EFFECT_GUIDED_PHOTONS, "guided_photons", "photons guided to what the camera sees",
-       scene.renderer.guided_photons ? "/renderer/guided_photons" : ""},
+       scene.renderer.guided_photons.value_or(false) ? "/renderer/guided_photons" : ""},
       {EFFECT_AIMED_PHOTONS, "aimed_photons", "photons aimed at what focuses them",
        aimed_photons_reason(scene)},
       {EFFECT_SMOOTH, "smooth", "shading normals", smooth_reason(scene)},

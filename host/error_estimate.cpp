@@ -37,7 +37,8 @@ double drawn_bound(const std::vector<RelativeError>& errors, double share, doubl
   sizes.reserve(2 * errors.size());
   for (const auto& error : errors)
     for (const double sign : {-1, 1})
-      sizes.push_back(std::fabs(noise * error.drawn + sign * bias * error.bias));
+      sizes.push_back(std::isfinite(error.bias) ? std::fabs(noise * error.drawn + sign * bias * error.bias)
+                                                : INFINITY);
   const auto rank =
       std::min(static_cast<std::size_t>(share * static_cast<double>(sizes.size())), sizes.size() - 1);
   const auto bound = sizes.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -87,6 +88,7 @@ double normal_bound(const std::vector<RelativeError>& errors, double share) {
 double error_bound(const PixelError& pixel, double confidence) {
   const double size = std::max<double>(pixel.pooled_noise, pixel.bias);
   if (!(size > 0)) return 0;
+  if (!std::isfinite(size)) return size;
   const double noise = pixel.pooled_noise / size, bias = pixel.bias / size;
   return size * inverse([&](double bound) { return probability_below(noise, bias, bound); }, confidence);
 }
@@ -94,8 +96,11 @@ double error_bound(const PixelError& pixel, double confidence) {
 std::optional<PictureError> picture_error(const std::vector<PixelError>& pixels, double confidence) {
   const auto errors = relative_errors(pixels);
   if (errors.empty()) return {};
+  const auto unknown = std::count_if(errors.begin(), errors.end(),
+                                     [](const RelativeError& error) { return !std::isfinite(error.bias); });
   return PictureError{drawn_bound(errors, confidence, 1, 1), drawn_bound(errors, confidence, 1, 0),
-                      drawn_bound(errors, confidence, 0, 1)};
+                      drawn_bound(errors, confidence, 0, 1),
+                      static_cast<double>(unknown) / static_cast<double>(errors.size())};
 }
 
 void ErrorTrend::add(std::uint64_t passes, const std::vector<PixelError>& pixels) {

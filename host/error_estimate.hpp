@@ -17,6 +17,8 @@ struct PictureError {
   double error = 0;  // of noise and bias together
   double noise = 0;  // as if there were no bias
   double bias = 0;   // as if there were no noise
+  // Pixels whose error cannot be told (PixelError::bias is infinite), as a share of all: they count as wrong.
+  double unknown = 0;
 };
 
 /// The parts of a pixel's error, and the channels of EXR files that hold them.

@@ -21,7 +21,7 @@ void ErrorWatch::update(std::uint64_t passes) {
   next_ = passes + std::max<std::uint64_t>(1, passes / 5);
   trend_.add(passes, film_.look(passes, look_pixels));
   if (!last()) return;
-  until_half_ = trend_.passes_until(last()->error / 2);
+  if (std::isfinite(last()->error)) until_half_ = trend_.passes_until(last()->error / 2);
   if (wanted_) until_wanted_ = trend_.passes_until(*wanted_);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "error_estimate.hpp"
@@ -28,9 +29,10 @@ class ErrorWatch {
   const std::optional<PictureError>& last() const { return trend_.last(); }
 
   /// Further passes after `passes` until the error is half that of the last look; none while the trend is not
-  /// known, nor for an error of nothing.
+  /// known, nor for an error of nothing, or one that is unknown.
   std::optional<double> passes_to_half(std::uint64_t passes) const {
-    if (!last() || !(last()->error > 0) || passes < trend_known_from) return {};
+    if (!last() || !(last()->error > 0) || !std::isfinite(last()->error) || passes < trend_known_from)
+      return {};
     return further(until_half_, passes);
   }
 

@@ -76,6 +76,7 @@ std::string explanation_table(const Explanation& explanation) {
     text += column(pass.name, 14) + (pass.skipped.empty() ? "runs" : "skipped: " + pass.skipped) + "\n";
   text += "\n";
   for (const auto& line : explanation.kept) text += line + "\n";
+  for (const auto& line : explanation.decided) text += "decided: " + line + "\n";
   return text;
 }
 
@@ -93,10 +94,14 @@ std::string explanation_json(const Explanation& explanation) {
   }
   for (const auto& pass : explanation.passes)
     passes.push_back({{"name", pass.name}, {"runs", pass.skipped.empty()}, {"skipped", pass.skipped}});
-  const Json object = {
-      {"version", CAUSTICL_VERSION},  {"scene", explanation.scene}, {"integrator", explanation.integrator},
-      {"device", explanation.device}, {"effects", effects},         {"passes", passes},
-      {"kept", explanation.kept}};
+  const Json object = {{"version", CAUSTICL_VERSION},
+                       {"scene", explanation.scene},
+                       {"integrator", explanation.integrator},
+                       {"device", explanation.device},
+                       {"effects", effects},
+                       {"passes", passes},
+                       {"kept", explanation.kept},
+                       {"decided", explanation.decided}};
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -30,11 +30,16 @@ struct Explanation {
   std::string scene, integrator, device;  // the device is empty where nothing was measured
   std::vector<ExplainedEffect> effects;
   std::vector<PassPlan> passes;
-  std::vector<std::string> kept;  // what is done for every scene alike, and why
+  std::vector<std::string> kept;     // what is done for every scene alike, and why
+  std::vector<std::string> decided;  // by the pilot of SPPM, where a device ran it
 };
 
 /// Needs no device.
 Explanation explain(const Scene& scene);
+
+/// Adds what the pilot of SPPM decides, which takes a device: see pilot.hpp.
+void explain_pilot(Explanation& explanation, const Scene& scene, Device& device,
+                   const RenderOptions& options);
 
 /// Adds the costs on `device`: of an absent effect the time of the kernels with its code compiled in against
 /// without; of a present one, where it can be left out (measurable_without), the time with it against

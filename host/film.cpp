@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "effects.h"
+#include "error_estimate.hpp"
 
 namespace causticl {
 namespace {
@@ -51,6 +52,14 @@ Picture Film::picture(std::uint64_t passes) {
     for (int c = 0; c < 3; ++c) picture.rgb[3 * i + c] = mean_of(sums[i].sum[c], sums[i].low[c], scale);
   }
   return picture;
+}
+
+void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors) {
+  for (const auto& kind : pixel_error_kinds) {
+    Channel channel{kind.channel, {}};
+    for (const auto& error : errors) channel.values.push_back(error.*kind.value);
+    channels.push_back(std::move(channel));
+  }
 }
 
 std::vector<Channel> layer_channels(std::size_t pixels) {

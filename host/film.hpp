@@ -10,6 +10,9 @@
 
 namespace causticl {
 
+/// Adds the errors of the luminance of each pixel as channels (pixel_error_kinds).
+void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors);
+
 /// The channels of the layers of cl/layers.cl, all black.
 std::vector<Channel> layer_channels(std::size_t pixels);
 

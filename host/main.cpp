@@ -17,6 +17,7 @@
 #include "scene_output.hpp"
 #include "selftest_processes.hpp"
 #include "stability_checks.hpp"
+#include "view_check.hpp"
 
 namespace {
 
@@ -79,6 +80,7 @@ int render(const Options& options) {
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
   if (options.outputs.empty()) progress.note(scene_output(scene).notice);
+  progress.note(empty_view_notice(scene));
   KernelCache kernels(options.keep_kernels);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   std::vector<std::unique_ptr<Device>> opened;
@@ -107,11 +109,13 @@ int explain(const Options& options) {
   if (!options.json.empty()) check_writable(options.json);
   const Scene scene = load_scene(options.scene, options.scene_options);
   Explanation explanation = explain(scene);
-  if (options.measure) {
+  if (options.measure || (scene.renderer.integrator == Integrator::sppm && !list_devices().empty())) {
     KernelCache kernels(options.keep_kernels);
     Device device(find_device(options.device), options.threads, &kernels);
-    measure_effects(explanation, scene, device, render_options(options, {}),
-                    [](const std::string& effect) { print_message(stderr, "measuring " + effect); });
+    explain_pilot(explanation, scene, device, render_options(options, {}));
+    if (options.measure)
+      measure_effects(explanation, scene, device, render_options(options, {}),
+                      [](const std::string& effect) { print_message(stderr, "measuring " + effect); });
     report_notices(kernels, note);
   }
   LastSteps last;

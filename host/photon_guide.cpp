@@ -27,7 +27,8 @@ PhotonGuide::PhotonGuide(const DeviceScene& scene, Device& device, Programs& pro
       scouts_(guided ? static_cast<std::uint32_t>(scout_share * photons) : 0),
       seeds_(device.buffer(scouts_ * sizeof(cl_uint2), "seeds of photons")),
       accepted_(device.buffer(scouts_ * sizeof(cl_uint), "seeds of photons")),
-      marks_(device.buffer(0, "marked cells")) {}
+      marks_(device.buffer(0, "marked cells")),
+      emission_(device.buffer(0, "emission map")) {}
 
 PhotonGuide::Emission PhotonGuide::emission(std::uint32_t pass) const {
   if (pass < next_guided_ || scouts_ == 0) return {photons_, PHOTONS_PLAIN};
@@ -50,6 +51,13 @@ void PhotonGuide::add_arguments(cl::Kernel& trace_photons, cl_uint first) const 
   trace_photons.setArg(first + 1, accepted_);
   trace_photons.setArg(first + 2, marks_);
   trace_photons.setArg(first + 3, cells_);
+  trace_photons.setArg(first + 4, emission_);
+  trace_photons.setArg(first + 5, emission_count_);
+}
+
+void PhotonGuide::set_emission(const std::vector<EmissionCell>& cells) {
+  emission_ = device_.upload(cells, "emission map");
+  emission_count_ = static_cast<cl_uint>(cells.size());
 }
 
 void PhotonGuide::set_radius(double radius) {

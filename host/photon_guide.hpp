@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "integrator.hpp"
 #include "programs.hpp"
@@ -12,9 +13,11 @@
 
 namespace causticl {
 
+constexpr cl_uint guide_arguments = 6;
+
 class PhotonGuide {
  public:
-  /// For passes of `photons` photons, which are all plain where they are not `guided`.
+  /// For passes of `photons` photons, which are all plain where they are not `guided`, and start everywhere.
   PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons,
               bool guided);
 
@@ -34,7 +37,12 @@ class PhotonGuide {
   /// As last found.
   std::optional<SeedStatistics> seeds() const { return seeds_found_; }
 
-  /// What trace_photons takes from argument `first` on.
+  /// From now on photons start by this map (emission_map.hpp); where it is empty, everywhere.
+  void set_emission(const std::vector<EmissionCell>& cells);
+  const cl::Buffer& emission_cells() const { return emission_; }
+  cl_uint emission_count() const { return emission_count_; }
+
+  /// What trace_photons takes from argument `first` on: guide_arguments of them.
   void add_arguments(cl::Kernel& trace_photons, cl_uint first) const;
 
   /// The first radius within which photons are gathered: cells are as large.
@@ -47,7 +55,8 @@ class PhotonGuide {
   Device& device_;
   Programs& programs_;
   std::uint32_t photons_, scouts_;  // of a pass; no scouts where photons are not guided
-  cl::Buffer seeds_, accepted_, marks_;
+  cl::Buffer seeds_, accepted_, marks_, emission_;
+  cl_uint emission_count_ = 0;
   Grid cells_{};
   float reach_ = 0;
   cl::Kernel mark_visible_points_;

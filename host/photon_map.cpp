@@ -28,6 +28,7 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& program
     : scene_(scene),
       device_(device),
       programs_(programs),
+      photon_programs_(&programs),
       guide_(guide),
       aim_(aim),
       photon_bytes_(programs.options().precision == Precision::float64 ? photon_bytes_in_double
@@ -38,8 +39,9 @@ PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& program
   sorted_ = device_.buffer(0, "sorted photons");
 }
 
-void PhotonMap::prepare() {
-  trace_photons_ = programs_.kernel("photon", "trace_photons");
+void PhotonMap::prepare(Programs& programs) {
+  photon_programs_ = &programs;
+  trace_photons_ = programs.kernel("photon", "trace_photons");
   first_argument_ = set_scene_arguments(trace_photons_, scene_);
 }
 
@@ -49,7 +51,7 @@ void PhotonMap::set_trace_arguments() {
   trace_photons_.setArg(first_argument_, photons_);
   trace_photons_.setArg(first_argument_ + 1, counters_);
   guide_.add_arguments(trace_photons_, first_argument_ + 3);
-  aim_.add_arguments(trace_photons_, first_argument_ + 7);
+  aim_.add_arguments(trace_photons_, first_argument_ + 3 + guide_arguments);
 }
 
 /// Traces params.photon_count photons in the role that `params` tells.
@@ -87,6 +89,29 @@ void PhotonMap::take_aim(Params params) {
   set_trace_arguments();
   launch(params);
   aim_.learn();
+}
+
+std::vector<StartNumbers> PhotonMap::useful_scouts(Params params, std::uint32_t scouts, std::uint32_t pass,
+                                                   const Marked& marked) {
+  const cl::Buffer seeds = device_.buffer(scouts * sizeof(cl_uint2), "seeds of photons");
+  params.pass = pass;
+  params.photon_role = PHOTONS_TO_LEARN_BY;
+  params.first_photon = 0;
+  params.photon_count = scouts;
+  device_.clear(counters_, offsetof(Counters, rays));
+  set_trace_arguments();
+  trace_photons_.setArg(first_argument_ + 3, seeds);
+  trace_photons_.setArg(first_argument_ + 5, marked.marks);
+  trace_photons_.setArg(first_argument_ + 6, marked.cells);
+  launch(params);
+  const auto count = std::min(device_.download<Counters>(counters_, 1)[0].seeds, scouts);
+  if (count == 0) return {};
+  const cl::Buffer numbers = device_.buffer(count * sizeof(StartNumbers), "seeds of photons");
+  cl::Kernel seed_numbers = photon_programs_->kernel("photon", "seed_numbers");
+  set_arguments(seed_numbers, seeds, guide_.emission_cells(), guide_.emission_count(), numbers,
+                static_cast<cl_uint>(params.seed), static_cast<cl_uint>(pass), static_cast<cl_uint>(count));
+  device_.launch_pass(seed_numbers, count);
+  return device_.download<StartNumbers>(numbers, count);
 }
 
 Counters PhotonMap::trace(Params params) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "emission_map.hpp"
 #include "integrator.hpp"
 #include "photon_aim.hpp"
 #include "photon_guide.hpp"
@@ -16,11 +17,21 @@ class PhotonMap {
   PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
             PhotonGuide& guide, PhotonAim& aim);
 
-  /// Waits until the kernel that traces photons is built.
-  void prepare();
+  /// Waits until the kernel that traces photons is built, by `programs` from now on.
+  void prepare(Programs& programs);
 
   /// Only after prepare(), before the first pass: traces the scouts that photons are aimed by.
   void take_aim(Params params);
+
+  /// Scouts that land, not as direct light, in cells of `cells` that `marks` marks: the numbers by which they
+  /// started. `pass` tells their random numbers from those of other scouts. Only after prepare() with kernels
+  /// of EFFECT_GUIDED_PHOTONS.
+  struct Marked {
+    const cl::Buffer& marks;
+    Grid cells;
+  };
+  std::vector<StartNumbers> useful_scouts(Params params, std::uint32_t scouts, std::uint32_t pass,
+                                          const Marked& marked);
 
   /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are scouts
   /// (params.photon_role) what follows from them. Waits for the device,
@@ -44,6 +55,7 @@ class PhotonMap {
   const PhotonGrids& grids() const { return grids_; }
   const cl::Buffer& starts() const { return starts_; }
   const cl::Buffer& sorted() const { return sorted_; }
+  const cl::Buffer& records_buffer() const { return photons_; }
   /// The memory of the photons as traced, of so many bytes. Between sort() and the next trace() it is free.
   const cl::Buffer& traced() const { return photons_; }
   std::size_t traced_bytes() const { return capacity_ * photon_bytes_; }
@@ -52,6 +64,7 @@ class PhotonMap {
   const DeviceScene& scene_;
   Device& device_;
   Programs& programs_;
+  Programs* photon_programs_;  // that trace
   PhotonGuide& guide_;
   PhotonAim& aim_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;

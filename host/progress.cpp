@@ -64,8 +64,15 @@ std::string clock_time(double seconds) {
 }
 
 std::string percentage(double share) {
+  if (!std::isfinite(share)) return "unknown";
   const double percent = 100 * share;
   return formatted("%.*f%%", percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0, percent);
+}
+
+std::string unknown_text(double share) {
+  return percentage(share) +
+         " of the pixels found no photon yet, though photons are stored around what they see: their error is "
+         "unknown and counts as wrong; more passes, more photons or a larger renderer.radius find some";
 }
 
 namespace {
@@ -189,11 +196,14 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
                 statistics.passes == 1 ? "pass" : "passes", statistics.seconds, reason(statistics.stop)));
   if (statistics.error) {
     const PictureError& error = *statistics.error;
-    std::string line = formatted("error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
-                                 percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
-                                 percentage(error.noise).c_str(), percentage(error.bias).c_str());
+    std::string line = "error unknown for " + percentage(statistics.confidence) + " of the pixels";
+    if (std::isfinite(error.error))
+      line = formatted("error %s or less in %s of the pixels (noise alone %s, bias alone %s)",
+                       percentage(error.error).c_str(), percentage(statistics.confidence).c_str(),
+                       percentage(error.noise).c_str(), percentage(error.bias).c_str());
     if (statistics.photons) line += ", " + si_number(static_cast<double>(statistics.photons)) + " photons";
     print_message(stream_, line);
+    if (error.unknown > 0) print_message(stream_, "note: " + unknown_text(error.unknown));
   }
   for (const auto& warning : fault_warnings(statistics.faults)) print_message(stream_, "warning: " + warning);
 }

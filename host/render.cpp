@@ -45,15 +45,6 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
   return metadata;
 }
 
-/// Those of the luminance of each pixel.
-void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors) {
-  for (const auto& kind : pixel_error_kinds) {
-    Channel channel{kind.channel, {}};
-    for (const auto& error : errors) channel.values.push_back(error.*kind.value);
-    channels.push_back(std::move(channel));
-  }
-}
-
 // With fewer passes the estimate of the error is too noisy to stop by.
 constexpr std::uint64_t fewest_passes = 8;
 
@@ -84,19 +75,21 @@ std::vector<PassStatistics> pass_statistics(const std::vector<PassPlan>& plan,
   return result;
 }
 
-/// Makes the integrator of `on`. Returns the first radius of SPPM, which is `first_radius` where that is
-/// given, and 0 for path tracing.
-double start_integrator(RenderDevice& on, const Scene& scene, std::uint32_t seed, bool with_photons,
-                        std::optional<double> first_radius) {
+/// Makes the integrator of `on`. SPPM holds to `pilot`, or puts there what its own decided.
+void start_integrator(RenderDevice& on, const Scene& scene, std::uint32_t seed, bool with_photons,
+                      std::optional<Pilot>& pilot) {
   if (scene.renderer.integrator == Integrator::pt) {
     on.integrator = std::make_unique<PathTracer>(scene, on.scene, on.device, on.film, on.programs, seed);
-    return 0;
+    return;
   }
   auto sppm = std::make_unique<Sppm>(scene, on.scene, on.device, on.film, on.programs, seed, with_photons,
-                                     first_radius);
-  const double radius = sppm->first_radius();
+                                     pilot ? &*pilot : nullptr);
+  pilot = sppm->pilot();
   on.integrator = std::move(sppm);
-  return radius;
+}
+
+bool is_black(const Picture& picture) {
+  return std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float value) { return value == 0; });
 }
 
 std::string names_of(const std::vector<Device*>& devices) {
@@ -158,9 +151,10 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     for (auto& pass : plan) pass.skipped.clear();
   if (passes_to_run(plan).empty()) {
     statistics.pass_programs = pass_statistics(plan, {}, effects);
+    if (notice) notice("nothing emits light: the picture is black");
     return black_picture(scene, options, statistics);
   }
-  if (devices.size() > 1 && scene.renderer.guided_photons && sppm)
+  if (devices.size() > 1 && scene.renderer.guided_photons.value_or(false) && sppm)
     throw UserError(
         "/renderer/guided_photons: cannot be shared between devices, since each would mark what its own "
         "pixels see; use one --device, or -D renderer.guided_photons=false");
@@ -171,18 +165,13 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
                                                    RayChoice{options.camera_rays, options.photon_rays},
                                                    passes_to_run(plan), options.threads));
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
-  std::optional<double> first_radius = scene.renderer.radius;
-  for (const auto& part : parts)
-    first_radius = start_integrator(*part, scene, options.seed, with_photons, first_radius);
-  if (sppm) {
-    statistics.first_radius = *first_radius;
+  std::optional<Pilot> pilot;
+  for (const auto& part : parts) start_integrator(*part, scene, options.seed, with_photons, pilot);
+  if (pilot) {
+    statistics.first_radius = pilot->first_radius;
     statistics.first_radius_chosen = !scene.renderer.radius;
-    if (statistics.first_radius_chosen && with_photons && notice) {
-      char text[128];
-      std::snprintf(text, sizeof text, "first radius %.4g, chosen from the scene (renderer.radius sets it)",
-                    statistics.first_radius);
-      notice(text);
-    }
+    if (with_photons && notice)
+      for (const auto& line : pilot_lines(*pilot, scene.renderer)) notice(line);
   }
   for (Device* device : devices) device->queue().finish();
   RenderDevice& first = *parts.front();
@@ -287,6 +276,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   RenderResult result;
   result.picture = film.picture(statistics.passes);
   result.unwritten = write(result.picture, Unwritable::kept);
+  if (notice && is_black(result.picture)) notice("the picture is black: no light has reached the camera");
   statistics.first_pass_seconds = std::chrono::duration<double>(integrator->began() - start).count();
   statistics.tree_build_seconds = first.scene.tree_build_seconds;
   statistics.triangles = first.scene.triangles;

@@ -186,6 +186,7 @@ std::string statistics_json(const Statistics& s) {
     object["error"] = s.error->error;
     object["error_noise"] = s.error->noise;
     object["error_bias"] = s.error->bias;
+    object["error_unknown"] = s.error->unknown;
     if (s.passes_to_half_error) object["passes_to_half_error"] = *s.passes_to_half_error;
   }
   for (const auto& kind : fault_kinds) object[kind.key] = s.faults.*kind.count;

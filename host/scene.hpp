@@ -104,7 +104,7 @@ struct RendererSpec {
   double alpha = 0.7;
   std::optional<double> indirect_radius;  // see indirect_radius()
   bool boundary_correction = true;        // sppm: kernels that reach beyond edges are made up for
-  bool guided_photons = false;            // sppm: those that land where the camera sees are copied
+  std::optional<bool> guided_photons;     // sppm: copied where they land in view; absent: by the pilot
   std::optional<bool> aimed_photons;      // see aims_photons()
   double radius_decay = 0.95;             // Schedule::geometric
   Schedule schedule = Schedule::pixel;

@@ -68,7 +68,7 @@ void read_renderer(const JsonReader& json, SceneLoader& loader) {
   if (const auto radius = json.find("radius")) renderer.radius = radius->number(positive_number);
   if (const auto wider = json.find("indirect_radius"))
     renderer.indirect_radius = wider->number({1, 100, "a number from 1 to 100"});
-  renderer.guided_photons = json.boolean("guided_photons", renderer.guided_photons);
+  if (json.has("guided_photons")) renderer.guided_photons = json.boolean("guided_photons", true);
   if (json.has("aimed_photons")) renderer.aimed_photons = json.boolean("aimed_photons", true);
   renderer.boundary_correction = json.boolean("boundary_correction", renderer.boundary_correction);
   renderer.alpha = read_fraction(json, "alpha", renderer.alpha, open_unit_number);

@@ -9,6 +9,7 @@
 #include "printable.hpp"
 #include "report.hpp"
 #include "scene_output.hpp"
+#include "view_check.hpp"
 
 namespace causticl {
 namespace {
@@ -90,7 +91,7 @@ void print_integrator(std::ostream& text, const Scene& scene) {
       text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
            << r.alpha;
     if (!r.boundary_correction) text << ", no boundary correction";
-    if (r.guided_photons) text << ", guided photons";
+    if (r.guided_photons) text << (*r.guided_photons ? ", guided photons" : ", photons without guidance");
     if (r.aimed_photons) text << (*r.aimed_photons ? ", aimed photons" : ", photons without aim");
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }
@@ -235,6 +236,8 @@ std::string scene_summary(const Scene& scene) {
   for (const auto& line : find_dielectrics(scene).lines)
     text << "dielectrics " << printable_line(line) << "\n";
   for (const auto& notice : scene.notices) text << "note        " << printable_line(notice) << "\n";
+  const std::string empty_view = empty_view_notice(scene);
+  if (!empty_view.empty()) text << "note        " << empty_view << "\n";
   return text.str();
 }
 

@@ -6,7 +6,7 @@ namespace causticl {
 
 Grid grid_of(const DeviceScene& scene, double cell, double affordable, std::size_t first_bucket) {
   Grid grid{};
-  const double across = std::ceil(2 * scene.extent / cell);
+  const double across = std::ceil(2 * length_scale(scene) / cell);
   uint* const axes[] = {&grid.nx, &grid.ny, &grid.nz};
   grid.nx = grid.ny = grid.nz = 1;
   std::size_t buckets = 1;

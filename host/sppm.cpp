@@ -24,17 +24,18 @@ constexpr double segment_share = 0.3;
 }  // namespace
 
 Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-           std::uint32_t seed, bool with_photons, std::optional<double> first_radius)
+           std::uint32_t seed, bool with_photons, const Pilot* pilot)
     : scene_(scene),
       spec_(scene.renderer),
       device_(device),
       film_(film),
       device_scene_(device_scene),
+      programs_(programs),
       motion_(scene, device, device_scene, seed),
       params_(scene_params(scene, device_scene, seed)),
       counters_(device.buffer(sizeof(Counters), "counters")),
       guide_(device_scene, device, programs, static_cast<std::uint32_t>(scene.renderer.photons),
-             scene.renderer.guided_photons && with_photons),
+             scene.renderer.guided_photons.value_or(false) && with_photons),
       aim_(device, (programs.options().effects & EFFECT_AIMED_PHOTONS) ? device_scene.emitter_count : 0,
            static_cast<std::uint32_t>(scene.renderer.photons),
            with_photons && (effect_bits(find_effects(scene)) & EFFECT_AIMED_PHOTONS)),
@@ -44,7 +45,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
                             ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
                            record_scale(programs.options().precision)),
-      smallest_radius2_(1e-12 * device_scene.extent * device_scene.extent) {
+      unknown_(device, programs) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
@@ -57,7 +58,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
 
   // The first pass begins here, while programs that it needs later are still being built.
-  if (with_photons_) photon_map_.prepare();
+  if (with_photons_) photon_map_.prepare(programs);
   began_ = Clock::now();
   start_pass(0);
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
@@ -70,10 +71,15 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
 
   walls_ = device_.upload(no_walls(), "walls");
   trace_camera_.setArg(first_argument_ + 4, walls_);
-  first_radius_ = first_radius ? *first_radius : choose_first_radius(programs, device_scene.extent);
-  guide_.set_radius(first_radius_);
+  if (pilot)
+    adopt(*pilot);
+  else
+    pilot_ = run_pilot();
+  smallest_radius2_ = 1e-12 * length_scale(device_scene) * length_scale(device_scene);
+  guide_.set_radius(pilot_.first_radius);
+  unknown_.set_view(pilot_.around);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
-  schedule_radius2_ = first_radius_ * first_radius_;
+  schedule_radius2_ = pilot_.first_radius * pilot_.first_radius;
   cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
   set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
@@ -91,13 +97,17 @@ void Sppm::start_pass(std::uint32_t pass) {
     photon_map_.take_aim(params_);
     totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // scouts are no part of the pass
   }
+  trace_photons(pass);
+  started_pass_ = pass;
+}
+
+void Sppm::trace_photons(std::uint32_t pass) {
   const auto emission = guide_.emission(pass);
   params_.photon_role = emission.role;
   params_.first_photon = static_cast<uint>(share_.first_of(emission.photons));
   params_.photon_count = static_cast<uint>(share_.count_of(emission.photons));
   params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / emission.photons);
   if (with_photons_) totals_.update(photon_map_.trace(params_));
-  started_pass_ = pass;
 }
 
 /// Where those of a chunk lie: in the memory of the photons as traced, once these have been sorted, if it is
@@ -112,6 +122,12 @@ const cl::Buffer& Sppm::visible_points() {
   return own_visible_points_;
 }
 
+/// Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
+float Sppm::segment(double radius) const {
+  return static_cast<float>(
+      std::min(segment_share * length_scale(device_scene_), MOST_SEGMENT_STEPS * 4 * radius));
+}
+
 /// Those of the chunk that `params` tells.
 void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) {
   first_hits_.launch(device_, device_scene_, points, params, params.visible_points);
@@ -120,59 +136,13 @@ void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) 
   device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
 }
 
-/// The radius within which the median visible point of a coarse picture finds a dozen photons of the first
-/// pass. In the Cornell box the error of 90% of the pixels is then smallest after 32 to 128 passes; with
-/// forty it takes twice as many passes to the same error, since corners stay dark for long.
-double Sppm::choose_first_radius(Programs& programs, double extent) {
-  constexpr double wanted = 12;
-  constexpr uint longest_side = 64;
-  Params params = params_;
-  params.coverage = 0;  // pixels have no radius yet
-  params.segment = static_cast<float>(segment_share * extent);
-  const uint longer = std::max(params.width, params.height);
-  params.width = std::max(1u, std::min(longest_side, longer) * params.width / longer);
-  params.height = std::max(1u, std::min(longest_side, longer) * params.height / longer);
-  params.visible_points = 1;
-  params.pixel_count = static_cast<uint>(std::min<std::size_t>(
-      static_cast<std::size_t>(params.width) * params.height, chunk_pixels_ * params_.visible_points));
-  const double fallback = 0.01 * extent;
-  double radius = fallback;
-  if (photon_map_.stored() == 0) return radius;
-  // Beside the photons as traced, which are sorted anew for every radius.
-  const cl::Buffer points = device_.buffer(params.pixel_count * visible_point_bytes_, "visible points");
-  trace_visible_points(points, params);
-
-  cl::Kernel count_around = programs.kernel("gather", "count_around");
-  const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");
-  for (int step = 0; step < 12; ++step) {
-    params.radius2 = static_cast<float>(radius * radius);
-    photon_map_.sort(radius, radius * indirect_radius(spec_));
-    set_arguments(count_around, points, photon_map_.starts(), photon_map_.sorted(), counts,
-                  photon_map_.grids(), params);
-    device_.launch_pass(count_around, params.pixel_count);
-    auto found = device_.download<cl_uint>(counts, params.pixel_count);
-    std::erase(found, 0xffffffffu);  // COUNT_NOTHING of cl/pass_gather.cl
-    if (found.empty()) return radius;
-    // Photons may light a small part of the picture alone, as caustics on a floor: that part decides.
-    const bool dark = std::count(found.begin(), found.end(), 0u) == static_cast<std::ptrdiff_t>(found.size());
-    if (!dark) std::erase(found, 0u);
-    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-    std::nth_element(found.begin(), middle, found.end());
-    const double ratio = std::clamp(std::sqrt(wanted / std::max<double>(*middle, 0.5)), 0.25, 4.0);
-    if (ratio > 0.9 && ratio < 1.1) break;
-    if (radius * ratio > extent) return fallback;  // hardly a photon anywhere
-    radius *= ratio;
-  }
-  return radius;
-}
-
 /// Lists the walls for balls of the first radius, than which no later one is larger; anew for each pass where
 /// something moves.
 void Sppm::place_walls(std::uint32_t pass) {
   if (!walled_ || (pass > 0 && !has_motion(scene_))) return;
   const double time =
       has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
-  const double widest = first_radius_ * std::max(1.0, indirect_radius(spec_));
+  const double widest = pilot_.first_radius * std::max(1.0, indirect_radius(spec_));
   walls_ = device_.upload(wall_grid(scene_, build_world(scene_, time), time, widest), "walls");
   trace_camera_.setArg(first_argument_ + 4, walls_);
 }
@@ -197,9 +167,9 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
   const double radius = std::sqrt(schedule_radius2_);
   photon_map_.sort(radius, radius * indirect_radius(spec_));
-  // Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
-  params_.segment =
-      static_cast<float>(std::min(segment_share * device_scene_.extent, MOST_SEGMENT_STEPS * 4 * radius));
+  params_.segment = segment(radius);
+  const bool look_for_unknown = with_photons_ && unknown_.due(pass);
+  if (look_for_unknown) unknown_.begin(photon_map_.records_buffer(), photon_map_.stored());
 
   const cl::Buffer& points = visible_points();
   const std::size_t end = share_.end_of(film_.pixels());
@@ -211,7 +181,9 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
                   photon_map_.sorted(), counters_, photon_map_.grids(), params_, walls_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
     guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
+    if (look_for_unknown) unknown_.find(points, pixels_, film_.buffer(), params_);
   }
+  if (look_for_unknown) unknown_.finish(film_.buffer(), share_.first_of(film_.pixels()), end);
   advance_schedule(pass);
 }
 

@@ -1,6 +1,7 @@
 // Stochastic progressive photon mapping (Hachisuka & Jensen 2009) on the device.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "film.hpp"
@@ -8,16 +9,18 @@
 #include "integrator.hpp"
 #include "motion.hpp"
 #include "photon_map.hpp"
+#include "pilot.hpp"
+#include "unknown_error.hpp"
 #include "upload.hpp"
 
 namespace causticl {
 
 class Sppm : public PassIntegrator {
  public:
-  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture. The
-  /// first radius is chosen where none is given.
+  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture. What
+  /// `pilot` decided holds; where there is none, a pilot runs.
   Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-       std::uint32_t seed, bool with_photons, std::optional<double> first_radius);
+       std::uint32_t seed, bool with_photons, const Pilot* pilot);
 
   void enqueue_pass(std::uint32_t pass) override;
   void trace_share(std::uint32_t pass) override { start_pass(pass); }
@@ -30,14 +33,17 @@ class Sppm : public PassIntegrator {
   std::vector<Channel> channels() override;
   double bytes_per_pixel() const override;
 
-  double first_radius() const { return first_radius_; }
+  double first_radius() const { return pilot_.first_radius; }
+  const Pilot& pilot() const { return pilot_; }
 
  private:
   const Scene& scene_;
   const RendererSpec spec_;
   Device& device_;
   Film& film_;
-  const DeviceScene& device_scene_;
+  DeviceScene& device_scene_;
+  Programs& programs_;
+  std::unique_ptr<Programs> guided_programs_;  // that trace photons by a map which the pilot asked for
   Motion motion_;
   Params params_;
   cl::Buffer counters_;
@@ -55,15 +61,26 @@ class Sppm : public PassIntegrator {
   FirstHits first_hits_;
   CounterTotals totals_;
   std::uint64_t emitted_ = 0;
-  double first_radius_ = 0;
+  Pilot pilot_;
+  UnknownError unknown_;
   double smallest_radius2_;      // below this a schedule shrinks no further
   double schedule_radius2_ = 0;  // of the next pass, by the schedule that depends on its number alone
 
   void start_pass(std::uint32_t pass);
   const cl::Buffer& visible_points();
   void trace_visible_points(const cl::Buffer& points, const Params& params);
-  double choose_first_radius(Programs& programs, double extent);
   void place_walls(std::uint32_t pass);
+  void trace_photons(std::uint32_t pass);
+  float segment(double radius) const;
+
+  // The pilot, in sppm_pilot.cpp: `points` are those of its coarse picture.
+  Pilot run_pilot();
+  void adopt(const Pilot& pilot);
+  Params pilot_params() const;
+  Surroundings look_around(const cl::Buffer& points, const Params& params);
+  void choose_first_radius(const cl::Buffer& points, Params params, Pilot& pilot);
+  void learn_emission(const cl::Buffer& points, const Params& params, Pilot& pilot);
+  void start_by(const std::vector<EmissionCell>& emission);
   void advance_schedule(std::uint32_t pass);
 };
 

@@ -131,9 +131,9 @@ const std::vector<Knob>& study_knobs() {
       {"guided_photons", "Guided photons", "",
        "Photons that land where the camera sees are copied with slight changes: more of them where few come "
        "so far, in place of some that could have been traced anew.",
-       true, [](Context c) { return std::string(name_of(c.scene.renderer.guided_photons)); },
+       true, [](Context c) { return std::string(name_of(c.scene.renderer.guided_photons.value_or(false))); },
        [](Context c) {
-         return overrides("renderer.guided_photons", name_of(c.scene.renderer.guided_photons),
+         return overrides("renderer.guided_photons", name_of(c.scene.renderer.guided_photons.value_or(false)),
                           {"false", "true"});
        }},
       {"aimed_photons", "Aimed photons", "",

@@ -1,6 +1,8 @@
 // The scene on the device.
 #pragma once
 
+#include <algorithm>
+
 #include "device.hpp"
 #include "dielectrics.hpp"
 #include "kdtree.hpp"
@@ -17,12 +19,17 @@ struct DeviceScene {
   double emitted_power = 0;  // of the largest channels of all emitters, over pi
   Vec3 center;               // of all bounded objects
   double extent = 1;         // their largest half extent
+  double least_scale = 0;    // what the camera sees around it: see Pilot
   std::size_t triangles = 0, shapes_count = 0, skipped_triangles = 0;
   double tree_build_seconds = 0;                          // of all trees so far
   unsigned threads = 0;                                   // that build a tree; 0: all cores
   TriangleTest triangle_test = TriangleTest::watertight;  // of the kernels
   Dielectrics dielectrics;
 };
+
+/// The length by which the space that photons lie in is cut: half of how wide the scene is, but for what has
+/// no end, as infinite planes and a medium.
+inline double length_scale(const DeviceScene& scene) { return std::max(scene.extent, scene.least_scale); }
 
 /// Uploads everything as it is when the shutter opens, with a tree built by `threads` threads (0: all cores),
 /// for kernels with `triangle_test`.

@@ -70,7 +70,7 @@ kernel void emit(SCENE_PARAMETERS, global float4 *origins, global float4 *direct
   RandomStream stream = {params.seed, params.pass, i};
   real3 flux;
   real4 direction = random4(stream, DIM_EMISSION);
-  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), stream, direction.x, direction.y, &flux);
+  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
   origins[i] = (float4)(ray.origin, 0);
   directions[i] = (float4)(ray.direction, 0);
   fluxes[i] = (float4)(flux, 0);

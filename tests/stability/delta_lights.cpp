@@ -41,7 +41,7 @@ kernel void emit(global Emitted *out, uint count, uint first, uint seed, Params 
   real4 choice = random4(stream, DIM_EMITTER);
   real3 flux;
   real4 direction = random4(stream, DIM_EMISSION);
-  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), stream, direction.x, direction.y, &flux);
+  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
   out[i].origin = convert_float4((real4)(ray.origin, emitter_choose(&scene, choice.x, choice.w)));
   out[i].direction = convert_float4((real4)(ray.direction, 0));
   out[i].flux = convert_float4((real4)(flux, 0));
