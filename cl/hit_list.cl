@@ -12,15 +12,15 @@ typedef struct {
   Hit hit[HIT_LIST_CAPACITY];
 } HitList;
 
-// Which primitives a list is to hold: those of every material, or of closed dielectrics (MATERIAL_CLOSED).
+// Which primitives a list is to hold: those of every material, or of dielectrics.
 typedef struct {
   global const Material *materials;
-  bool closed;
+  bool dielectrics;
 } HitFilter;
 
 // Adds a hit of a primitive, unless the list has it already: a tree may name a primitive in several leaves.
 INLINE void hit_list_add(HitList *list, const HitFilter *filter, uint material, uint primitive, Hit hit) {
-  if (filter->closed && !(filter->materials[material].flags & MATERIAL_CLOSED)) return;
+  if (filter->dielectrics && filter->materials[material].kind != MATERIAL_GLASS) return;
   for (uint i = 0; i < list->count; ++i)
     if (list->primitive[i] == primitive) return;
   if (list->count == HIT_LIST_CAPACITY) {

@@ -7,6 +7,7 @@
 #include "horizon.cl"
 #include "layers.cl"
 #include "receivers.cl"
+#include "roulette.cl"
 #include "unlikely_lobe.cl"
 #include "visible_point.cl"
 #include "work_group.cl"

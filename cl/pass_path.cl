@@ -2,6 +2,7 @@
 #include "camera.cl"
 #include "direct.cl"
 #include "film.cl"
+#include "roulette.cl"
 #include "unlikely_lobe.cl"
 #include "work_group.cl"
 

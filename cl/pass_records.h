@@ -55,9 +55,10 @@ typedef struct {
   uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
   uint nested;               // NESTED_* bits; 0 where no dielectric touches or holds anything
   float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
-  uint unused;
+  float inside_direction[3];  // of the rays by which the dielectrics around a point are found
+  uint unused[2];
 } Params;
-CHECK_SIZE(Params, 288);
+CHECK_SIZE(Params, 304);
 
 #define NESTED_ON 1u        // paths keep the dielectrics that they are in: see path_media.cl
 #define NESTED_CAMERA 2u    // the camera may stand in one

@@ -32,12 +32,11 @@ INLINE Interior interior_of_stack(const Scene *scene, const MediumStack *stack) 
   return top == MEDIUM_OUTSIDE ? interior_none() : interior_of(scene->materials + top);
 }
 
-// The closed dielectrics that hold a point: those that a ray from there leaves more often than it enters them. Of a sphere
-// or a revolved curve the nearest hit alone is known; it is an exit from inside, and only from there.
+// The dielectrics that hold a point: those that a ray from there leaves more often than it enters them. The ray follows the
+// normals of open surfaces, behind which all counts as inside. Of a sphere or a revolved curve the nearest hit alone is
+// known; it is an exit from inside, and only from there.
 OUTLINE MediumStack media_around(const Scene *scene, real3 point, uint *faults) {
-  // A direction that no scene has on purpose.
-  Ray ray = {point, (real3)(0.36514837f, 0.91287093f, -0.18257419f)};
-  ray.direction = unit3((real3)(ray.direction.x, ray.direction.y, ray.direction.z));
+  Ray ray = {point, unit3(scene->inside_direction)};
   HitFilter filter = {scene->materials, true};
   HitList list;
   geometry_hits(&scene->geometry, ray, INFINITY, &filter, &list);

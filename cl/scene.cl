@@ -17,7 +17,7 @@ typedef struct {
   Medium medium;
   bool emission_met;  // as in Params
   uint nested;        // as in Params, like the box
-  real3 contact_low, contact_high;
+  real3 contact_low, contact_high, inside_direction;
   global const WallGrid *walls;  // with EFFECT_WALLS, in kernels that are given them
 } Scene;
 
@@ -36,7 +36,8 @@ typedef struct {
                   (params).extinction.w},                                                                             \
                  (params).emission_met != 0, (params).nested,                                                         \
                  (real3)((params).contact_low[0], (params).contact_low[1], (params).contact_low[2]),                  \
-                 (real3)((params).contact_high[0], (params).contact_high[1], (params).contact_high[2]), 0}
+                 (real3)((params).contact_high[0], (params).contact_high[1], (params).contact_high[2]),              \
+                 (real3)((params).inside_direction[0], (params).inside_direction[1], (params).inside_direction[2]), 0}
 
 // Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
 INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {

@@ -21,7 +21,6 @@ CHECK_SIZE(Camera, 96);
 #define MATERIAL_PLASTIC 4u  // a dielectric boundary over a Lambert base
 
 #define MATERIAL_TWO_SIDED 1u      // emits on both sides
-#define MATERIAL_CLOSED 4u         // dielectric of one closed body
 #define MATERIAL_ALPHA_DIFFUSE 2u  // texels with alpha > 0 are diffuse, whatever `kind` says (base format)
 
 typedef struct {
@@ -30,7 +29,7 @@ typedef struct {
   float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside
   float4 absorption;   // glass: per unit length inside; w: Cauchy's B in um^2 / index outside, 0 without dispersion
   uint kind;           // MATERIAL_DIFFUSE ...
-  uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE | MATERIAL_CLOSED
+  uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE
   uint color_texture;  // 1 + index into textures, 0 for none: then replaces `color`
   float alpha;         // GGX width of a rough lobe
 } Material;

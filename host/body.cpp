@@ -101,15 +101,16 @@ double winding(const Facet& facet, Vec3 point) {
   return std::atan2(y, x) / (2 * std::numbers::pi);
 }
 
-bool behind_open(const std::vector<Facet>& facets, Vec3 point) {
-  Vec3 normal;
-  for (const auto& facet : facets) normal = normal + facet.normal();
-  const double size = length(normal);
-  if (!(size > 0)) return false;
-  return std::all_of(facets.begin(), facets.end(), [&](const Facet& facet) {
-    return std::all_of(std::begin(facet.corner), std::end(facet.corner),
-                       [&](Vec3 corner) { return dot(normal, point - corner) <= 0; });
-  });
+/// 1 where a ray leaves through the front of the facet, -1 where it enters by it, 0 where it misses (Moller &
+/// Trumbore 1997).
+int crossing(const Facet& facet, Vec3 origin, Vec3 direction) {
+  const Vec3 e = facet.corner[1] - facet.corner[0], f = facet.corner[2] - facet.corner[0];
+  const Vec3 p = cross(direction, f), from = origin - facet.corner[0], q = cross(from, e);
+  const double determinant = dot(e, p);
+  if (determinant == 0) return 0;
+  const double u = dot(from, p) / determinant, v = dot(direction, q) / determinant;
+  if (u < 0 || v < 0 || u + v > 1 || !(dot(f, q) / determinant > 0)) return 0;
+  return determinant < 0 ? 1 : -1;
 }
 
 }  // namespace
@@ -149,11 +150,24 @@ Body make_body(const Scene& scene, const Object& object) {
 bool Body::holds(Vec3 point) const {
   if (radius > 0) return length(point - centre) < radius;
   if (object->shape == Object::Shape::plane) return object->transform.inverse().point(point).z < 0;
-  if (!closed) return behind_open(facets, point);
+  if (!closed) {
+    const Vec3 direction = mean_normal();
+    int exits = 0;
+    for (const auto& facet : facets) exits += crossing(facet, point, direction);
+    return exits > 0;
+  }
   if (!causticl::holds(bounds, point)) return false;
   double sum = 0;
   for (const auto& facet : facets) sum += winding(facet, point);
   return sum > 0.5;
+}
+
+Vec3 Body::mean_normal() const {
+  Vec3 sum;
+  if (object->shape == Object::Shape::plane) sum = object->transform.inverse().rows[2];
+  for (const auto& facet : facets) sum = sum + facet.normal();
+  const double size = length(sum);
+  return size > 0 ? sum / size : Vec3{};
 }
 
 std::vector<Vec3> surface_points(const Body& body) {

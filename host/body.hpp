@@ -29,9 +29,12 @@ struct Body {
   bool closed = false;  // a sphere, or facets of which every edge has two, one in each direction
 
   /// Whether the point lies inside: by the distance from the centre, or by the winding number of the facets
-  /// (Van Oosterom & Strackee 1983), which no edge can mislead. What is open holds what lies behind it: on
-  /// the side away from the mean of its normals, of every corner.
+  /// (Van Oosterom & Strackee 1983), which no edge can mislead. What is open holds what lies behind it: the
+  /// points from where a ray along the mean of its normals leaves it more often than it enters it.
   bool holds(Vec3 point) const;
+
+  /// Of all facets by area, of unit length; zero where they cancel. Of an infinite plane its own.
+  Vec3 mean_normal() const;
 };
 
 Body make_body(const Scene& scene, const Object& object);

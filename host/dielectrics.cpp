@@ -72,8 +72,7 @@ class Finder {
   std::string holders(Vec3 point, bool& any) const {
     std::string names;
     for (std::size_t i = 0; i < glass_.size(); ++i)
-      if (glass_[i].closed && glass_[i].holds(point))
-        names += (names.empty() ? "" : ", ") + scene_.objects[objects_[i]].pointer;
+      if (glass_[i].holds(point)) names += (names.empty() ? "" : ", ") + scene_.objects[objects_[i]].pointer;
     any = !names.empty();
     return names;
   }
@@ -176,6 +175,12 @@ class Finder {
   /// By priority, then what lies inside after what holds it, then in the order of the scene.
   void order_bodies() {
     if (result_.reason.empty()) return;
+    // A direction that no scene has on purpose, or near the normals of open surfaces.
+    const Vec3 odd{0.36514837, 0.91287093, -0.18257419};
+    Vec3 normals;
+    for (const auto& body : glass_)
+      if (!body.closed) normals = normals + body.mean_normal();
+    result_.inside_direction = length(normals) > 1e-3 ? normalize(normalize(normals) + 1e-3 * odd) : odd;
     const auto priority = [&](std::size_t i) { return material(scene_.objects[objects_[i]]).priority; };
     std::vector<bool> placed(glass_.size(), false);
     const auto waits = [&](std::size_t i) {
@@ -189,7 +194,6 @@ class Finder {
         if (!placed[i] && !waits(i) && (next == glass_.size() || priority(i) < priority(next))) next = i;
       placed[next] = true;
       result_.bodies.push_back(objects_[next]);
-      result_.closed.push_back(glass_[next].closed);
     }
   }
 };

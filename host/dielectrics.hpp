@@ -18,7 +18,7 @@ struct Dielectrics {
   /// list fills it: that of the higher priority; where equal, the one that lies wholly inside the other; else
   /// the later object.
   std::vector<int> bodies;
-  std::vector<bool> closed;  // of each of `bodies`: it has an inside wherever one looks from
+  Vec3 inside_direction;  // of a ray that leaves a body more often than it enters it only from inside
 
   BoundingBox contact;  // where surfaces may touch
   bool holds_camera = false;

@@ -7,6 +7,7 @@ void set_nested(Params& params, const Dielectrics& dielectrics) {
   params.nested = NESTED_ON | (dielectrics.holds_camera ? NESTED_CAMERA : 0u) |
                   (dielectrics.touches_emitter ? NESTED_EMITTERS : 0u);
   for (int axis = 0; axis < 3; ++axis) {
+    params.inside_direction[axis] = static_cast<float>(dielectrics.inside_direction[axis]);
     params.contact_low[axis] = std::nextafter(static_cast<float>(dielectrics.contact.low[axis]), -INFINITY);
     params.contact_high[axis] = std::nextafter(static_cast<float>(dielectrics.contact.high[axis]), INFINITY);
   }

@@ -167,7 +167,6 @@ DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, T
   for (std::size_t i = 0; i < out.dielectrics.bodies.size(); ++i) {
     const Object& body = scene.objects[static_cast<std::size_t>(out.dielectrics.bodies[i])];
     materials.push_back(materials[static_cast<std::size_t>(body.material)]);
-    if (out.dielectrics.closed[i]) materials.back().flags |= MATERIAL_CLOSED;
   }
   out.materials = device.upload(materials, "materials");
   upload_textures(scene, device, out);

@@ -98,6 +98,7 @@ const std::vector<Field> fields{
     FIELD(Params, nested),
     FIELD(Params, contact_low),
     FIELD(Params, contact_high),
+    FIELD(Params, inside_direction),
     FIELD(Params, first_photon),
     FIELD(Params, radius2),
     FIELD(Params, shadow_rays),
