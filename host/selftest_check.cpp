@@ -75,6 +75,7 @@ const char* hard_case_name(int hard_case) {
       "NaN and infinity",
       "sampling",
       "arithmetic of the device",
+      "leaks through walls",
   };
   return names[hard_case - 1];
 }

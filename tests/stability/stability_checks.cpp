@@ -32,7 +32,8 @@ std::vector<Check> stability_checks() {
                             random_number_checks(),
                             path_number_checks(),
                             non_finite_checks(),
-                            arithmetic_checks()})
+                            arithmetic_checks(),
+                            wall_checks()})
     for (Check check : group) {
       // A file's checks share its kernels, unless they say otherwise.
       if (check.programs.empty()) check.programs = group.front().name;
