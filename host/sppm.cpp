@@ -48,8 +48,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
-  params_.coverage =
-      (spec_.boundary_correction && with_photons_ ? COVERAGE_PROBING : 0) | (walled_ ? COVERAGE_WALLED : 0);
+  params_.coverage = spec_.boundary_correction && with_photons_;
   params_.alpha = static_cast<float>(spec_.alpha);
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
