@@ -165,10 +165,11 @@ double Sppm::choose_first_radius(Programs& programs, double extent) {
   return radius;
 }
 
-/// Lists the walls for balls of the first radius, than which no later one is larger; anew for each pass where
-/// something moves.
+/// Lists the walls for balls of the first radius, since no later radius is larger. Where something moves, each pass
+/// lists them anew.
 void Sppm::place_walls(std::uint32_t pass) {
-  if (!walled_ || (pass > 0 && !has_motion(scene_))) return;
+  if (!walled_ || (walls_placed_ && !has_motion(scene_))) return;
+  walls_placed_ = true;
   const double time =
       has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
   const double widest = first_radius_ * std::max(1.0, indirect_radius(spec_));
