@@ -20,7 +20,7 @@
 INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint sample, real *radius) {
   global const SppmPixel *state = pixels + pixel;
   bool in_turn = sample == params->pass % params->visible_points;
-  if (!(params->coverage & COVERAGE_PROBING) || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
+  if (!params->coverage || !coverage_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
   *radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : state->radius2_hi);
   return true;
 }

@@ -141,18 +141,11 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
-  real3 place = surface.position;
-  if (HAS(EFFECT_WALLS) && (params->coverage & COVERAGE_WALLED)) {
-    // Where walls meet, rounding may put the place behind another one than was hit. So what is reflected leaves a little
-    // back on the way that the photon came, which is free.
-    real3 g = surface.geometric_normal;
-    bool reflected = dot3(g, direction) * dot3(g, next.direction) < 0;
-    place = along3(place, reflected ? -fmin(64 * surface.error, hit.t / 2) : 0, direction);
-  }
-  photon->ray.origin = offset_origin(place, surface.error, surface.geometric_normal, next.direction);
   if (nested(scene)) {
     photon->ray.origin = media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
     photon->interior = interior_of_stack(scene, &photon->media.stack);
+  } else {
+    photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
   }
   photon->ray.direction = next.direction;
   photon->flux = flux;

@@ -2,11 +2,6 @@
 #ifndef CAUSTICL_WALL_RECORDS_H
 #define CAUSTICL_WALL_RECORDS_H
 
-// Bits of Params.coverage: visible points probe how much of their kernel lies on surfaces (coverage.cl); walls may part
-// photons from visible points.
-#define COVERAGE_PROBING 1u
-#define COVERAGE_WALLED 2u
-
 #define WALL_TRIANGLE 0u
 #define WALL_PLANE 1u
 #define WALL_DISK 2u

@@ -24,8 +24,7 @@ const std::map<std::string, unsigned> effects_read{
     {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS |
                    EFFECT_WALLS | EFFECT_HORIZON | OUTPUT_LAYERS},
     {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS |
-                   EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | EFFECT_WALLS | EFFECT_HORIZON |
-                   OUTPUT_LAYERS},
+                   EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | EFFECT_HORIZON | OUTPUT_LAYERS},
     {"grid", 0},
     {"gather", EFFECT_MEDIUM | EFFECT_GUIDED_PHOTONS | EFFECT_WALLS | OUTPUT_LAYERS},
     {"film", 0},

@@ -77,6 +77,7 @@ const char* hard_case_name(int hard_case) {
       "arithmetic of the device",
       "photons at bent shading normals",
       "dielectrics that touch or hold each other",
+      "leaks through walls",
   };
   return names[hard_case - 1];
 }

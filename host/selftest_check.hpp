@@ -62,6 +62,6 @@ std::vector<std::uint32_t> parse_replay(const std::string& text);
 
 /// The name of a hard case: "far or small sphere".
 const char* hard_case_name(int hard_case);
-constexpr int hard_case_count = 26;
+constexpr int hard_case_count = 27;
 
 }  // namespace causticl

@@ -49,8 +49,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
-  params_.coverage =
-      (spec_.boundary_correction && with_photons_ ? COVERAGE_PROBING : 0) | (walled_ ? COVERAGE_WALLED : 0);
+  params_.coverage = spec_.boundary_correction && with_photons_;
   params_.alpha = static_cast<float>(spec_.alpha);
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
@@ -136,10 +135,11 @@ void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) 
   device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
 }
 
-/// Lists the walls for balls of the first radius, than which no later one is larger; anew for each pass where
-/// something moves.
+/// Lists the walls for balls of the first radius, since no later radius is larger. Where something moves, each pass
+/// lists them anew.
 void Sppm::place_walls(std::uint32_t pass) {
-  if (!walled_ || (pass > 0 && !has_motion(scene_))) return;
+  if (!walled_ || (walls_placed_ && !has_motion(scene_))) return;
+  walls_placed_ = true;
   const double time =
       has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
   const double widest = pilot_.first_radius * std::max(1.0, indirect_radius(spec_));

@@ -56,6 +56,7 @@ class Sppm : public PassIntegrator {
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;
   cl::Buffer walls_;  // a WallGrid
+  bool walls_placed_ = false;
   std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer own_visible_points_, pixels_;
   FirstHits first_hits_;

@@ -45,18 +45,6 @@ inline constexpr BadScene bad_lights[] = {
     {"directional light without direction", "\"width\": 64",
      "\"lights\": [{\"type\": \"directional\", \"direction\": [0, 0, 0], \"irradiance\": [1, 1, 1]}]",
      "scene.json:2: /lights/0/direction: expected a direction, got a vector of length 0"},
-    {"directional light on an infinite plane in sppm", "\"objects\": [\n",
-     "\"lights\": [{\"type\": \"directional\", \"direction\": [0, -1, 0], \"irradiance\": [1, 1, 1]}],\n"
-     "\"objects\": [{\"type\": \"plane\", \"material\": \"white\"},\n",
-     "scene.json:6: /lights/0: a directional light cannot emit photons to all of the infinite plane "
-     "/objects/0; use a "
-     "rectangle in its place, or the integrator \"pt\""},
-    {"environment over an infinite plane in sppm", "\"objects\": [\n",
-     "\"lights\": [{\"type\": \"environment\", \"radiance\": [1, 1, 1]}],\n"
-     "\"objects\": [{\"type\": \"plane\", \"material\": \"white\"},\n",
-     "scene.json:6: /lights/0: an environment cannot emit photons to all of the infinite plane /objects/0; "
-     "use a "
-     "rectangle in its place, or the integrator \"pt\""},
     {"disk light without normal", "\"width\": 64",
      "\"lights\": [{\"type\": \"disk\", \"position\": [0, 1, 0], \"radius\": 1, \"radiance\": [1, 1, 1]}]",
      "scene.json:2: /lights/0/normal: expected a vector, got nothing; the key is required; write [x, y, z] "

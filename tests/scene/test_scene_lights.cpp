@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "effects.h"
+#include "effects.hpp"
 #include "image_formats.hpp"
 #include "scene_folder.hpp"
 
@@ -105,21 +107,20 @@ TEST_CASE("radiance of an image is as bright as it is; texels that are no light 
         "1: /: no light: the image will be black\n");
 }
 
-TEST_CASE("light from beyond an infinite plane is for path tracing only") {
+TEST_CASE("light from beyond the scene goes with infinite planes") {
   const SceneFolder folder;
   for (const std::string light :
        {R"({"type": "environment", "radiance": [1, 1, 1]})",
         R"({"type": "directional", "direction": [0, -1, 0], "irradiance": [1, 1, 1]})"}) {
     const std::string text = "{\"camera\": " + target_camera + ", \"lights\": [" + light +
                              R"(], "objects": [{"type": "plane", "material": {"type": "diffuse"}}]})";
-    SceneOptions options;
-    CHECK_THROWS_AS(folder.load(text), UserError);
-    options.integrator = Integrator::pt;
-    CHECK_NOTHROW(folder.load(text, options));
+    const Scene scene = folder.load(text);
+    CHECK((effect_bits(find_effects(scene)) & EFFECT_HORIZON) != 0);
   }
-  CHECK_NOTHROW(
+  const Scene scene =
       folder.objects(R"({"type": "plane", "material": {"type": "diffuse"}})",
-                     R"(, "lights": [{"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1]}])"));
+                     R"(, "lights": [{"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1]}])");
+  CHECK((effect_bits(find_effects(scene)) & EFFECT_HORIZON) == 0);
 }
 
 }  // namespace causticl

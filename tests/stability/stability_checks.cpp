@@ -33,8 +33,9 @@ std::vector<Check> stability_checks() {
                             path_number_checks(),
                             non_finite_checks(),
                             arithmetic_checks(),
+                            bent_normal_checks(),
                             nested_checks(),
-                            bent_normal_checks()})
+                            wall_checks()})
     for (Check check : group) {
       // A file's checks share its kernels, unless they say otherwise.
       if (check.programs.empty()) check.programs = group.front().name;

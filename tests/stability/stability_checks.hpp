@@ -37,7 +37,8 @@ std::vector<Check> random_number_checks();        // hard case 21
 std::vector<Check> path_number_checks();          // hard case 21: numbers of camera paths
 std::vector<Check> non_finite_checks();           // hard case 22
 std::vector<Check> arithmetic_checks();           // hard case 24
-std::vector<Check> nested_checks();               // hard case 26
 std::vector<Check> bent_normal_checks();          // hard case 25
+std::vector<Check> nested_checks();               // hard case 26
+std::vector<Check> wall_checks();                 // hard case 27
 
 }  // namespace causticl

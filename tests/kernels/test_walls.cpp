@@ -1,0 +1,148 @@
+// The lists of walls near visible points against all surfaces of a scene.
+#include <cstring>
+
+#include "render/render_fixture.hpp"
+#include "vector_inputs.hpp"
+#include "wall_primitives.hpp"
+#include "walls.hpp"
+
+using namespace causticl;
+
+namespace {
+
+const char* const source = R"(
+#include "walls.cl"
+kernel void part(global const float4 *points, global const float4 *photons, global const float4 *normals,
+                 global const WallGrid *grid, global uint *out, uint count, float radius) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  NearWalls near;
+  real3 normal = convert_real3(normals[2 * i].xyz);
+  bool any = walls_near(grid, convert_real3(points[i].xyz), normal, radius, &near);
+  out[i] = any && walls_between(&near, convert_real3(photons[i].xyz), convert_real3(normals[2 * i + 1].xyz));
+}
+)";
+
+// Rooms parted by a wall of no thickness, one of a thousandth, a leaning one and a plane; a block, a ball and
+// a turned profile on the floor; and a second storey.
+const char* const rooms = R"({
+  "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
+  "materials": {"grey": {"type": "diffuse", "color": [0.5, 0.5, 0.5]}},
+  "objects": [
+    {"type": "plane", "material": "grey", "transform": [{"type": "rotate", "axis": "x", "degree": -90}]},
+    {"type": "plane", "material": "grey", "transform": [{"type": "rotate", "axis": "y", "degree": 90},
+      {"type": "shift", "x": 3, "y": 0, "z": 0}]},
+    {"type": "rectangle", "material": "grey", "transform": [{"type": "scale", "x": 8, "y": 8, "z": 1},
+      {"type": "rotate", "axis": "x", "degree": 90}, {"type": "shift", "x": 0, "y": 2, "z": 0}]},
+    {"type": "rectangle", "material": "grey", "transform": [{"type": "scale", "x": 6, "y": 6, "z": 1},
+      {"type": "rotate", "axis": "y", "degree": 90}]},
+    {"type": "box", "material": "grey", "size": [0.001, 4, 6], "transform": [{"type": "shift", "x": 1, "y": 2, "z": 0}]},
+    {"type": "rectangle", "material": "grey", "transform": [{"type": "scale", "x": 6, "y": 6, "z": 1},
+      {"type": "rotate", "axis": "y", "degree": 90}, {"type": "rotate", "axis": "z", "degree": 40},
+      {"type": "shift", "x": 2, "y": 0, "z": 0}]},
+    {"type": "box", "material": "grey", "size": [0.4, 0.8, 0.5], "transform": [
+      {"type": "rotate", "axis": "y", "degree": 20}, {"type": "shift", "x": 0.5, "y": 0.4, "z": 0.5}]},
+    {"type": "sphere", "material": "grey", "radius": 0.4, "transform": [{"type": "shift", "x": -0.7, "y": 0.3, "z": 0}]},
+    {"type": "bezier_rotate", "material": "grey", "point": [[0.3, 0], [0.5, 0.3], [0.2, 0.8]],
+      "transform": [{"type": "shift", "x": -1.6, "y": -0.05, "z": 0.6}]}]
+})";
+
+/// A grid that lists all walls for every point.
+std::vector<std::byte> all_walls(const std::vector<WallPrimitive>& primitives) {
+  std::vector<Wall> walls;
+  for (const auto& primitive : primitives)
+    if (primitive.blocks) walls.push_back(primitive.wall);
+  std::vector<uint> words{0, static_cast<uint>(walls.size())};
+  for (uint i = 0; i < walls.size(); ++i) words.push_back(i);
+  while (words.size() % 4) words.push_back(0);
+  WallGrid grid{};
+  grid.first_wall = static_cast<uint>((sizeof grid + 4 * words.size()) / 16);
+  std::vector<std::byte> bytes(sizeof grid + 4 * words.size() + sizeof(Wall) * walls.size());
+  std::memcpy(bytes.data(), &grid, sizeof grid);
+  std::memcpy(bytes.data() + sizeof grid, words.data(), 4 * words.size());
+  std::memcpy(bytes.data() + std::size_t{16} * grid.first_wall, walls.data(), sizeof(Wall) * walls.size());
+  return bytes;
+}
+
+struct Place {
+  Vec3 point, normal;
+};
+
+/// A point of a random surface, not far from the middle of the scene, and the normal on one side of it.
+Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primitives) {
+  const auto& p =
+      primitives[static_cast<std::size_t>(random.uniform(0, 0.9999999) * double(primitives.size()))];
+  const Vec3 origin = to_vec3(p.wall.origin);
+  Vec3 n = to_vec3(p.wall.normal), point;
+  if (p.wall.origin.w == WALL_SPHERE) {
+    n = random_direction(random);
+    point = origin + p.wall.normal.w * n;
+  } else if (p.wall.origin.w == WALL_TRIANGLE) {
+    const double a = std::sqrt(random.uniform()), b = random.uniform();
+    point = (1 - a) * p.corner[0] + a * (1 - b) * p.corner[1] + a * b * p.corner[2];
+  } else {
+    const Vec3 u{random.uniform(-4, 4), random.uniform(0, 3), random.uniform(-3, 3)};
+    point = u - dot(n, u - origin) * n;
+  }
+  return {point, random.uniform() < 0.5 ? n : -n};
+}
+
+}  // namespace
+
+TEST_CASE("the walls that a cell lists part what all surfaces part") {
+  const Scene scene = scene_from_text(rooms);
+  const World world = build_world(scene);
+  const auto primitives = wall_primitives(scene, world, 0);
+  for (const double radius : {0.02, 0.15, 0.6}) {
+    INFO("radius " << radius);
+    RandomInputs random(771);
+    std::vector<float4> points, photons, normals;
+    while (points.size() < 40000) {
+      const Place a = random_place(random, primitives);
+      // A place nearby, on what a ray from above the neighbourhood would meet: one of many tries that falls
+      // into it.
+      for (int tries = 0; tries < 40; ++tries) {
+        Place b = random_place(random, primitives);
+        if (tries < 20) b = {a.point + random.uniform(0, radius) * random_direction(random), a.normal};
+        if (length(b.point - a.point) > radius || dot(a.normal, b.normal) < 0.5) continue;
+        if (tries < 20) b.point = b.point - dot(a.normal, b.point - a.point) * a.normal;
+        points.push_back(to_float4(a.point));
+        photons.push_back(to_float4(b.point));
+        normals.push_back(to_float4(a.normal));
+        normals.push_back(to_float4(b.normal));
+        break;
+      }
+    }
+    auto program = build_test_program(source);
+    const auto count = points.size();
+    const auto in = test_device().upload(points, "points"), ends = test_device().upload(photons, "photons"),
+               sides = test_device().upload(normals, "normals"),
+               out = test_device().buffer(count * sizeof(cl_uint), "verdicts");
+    const auto verdicts = [&](const std::vector<std::byte>& bytes) {
+      const auto grid = test_device().upload(bytes, "walls");
+      run_kernel(program, "part", count, in, ends, sides, grid, out, static_cast<cl_uint>(count),
+                 static_cast<float>(radius));
+      return test_device().download<cl_uint>(out, count);
+    };
+    const auto expected = verdicts(all_walls(primitives)),
+               found = verdicts(wall_grid(scene, world, 0, radius));
+    std::size_t parted = 0, missed = 0, invented = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      parted += expected[i];
+      missed += expected[i] && !found[i];
+      invented += !expected[i] && found[i];
+    }
+    // A wall of one thing alone within reach parts nothing that may hold photons: places here lie anywhere in
+    // their plane, also where there is no surface.
+    CHECK(parted > count / 50);
+    CHECK(invented == 0);
+    CHECK(missed < parted / 20);
+  }
+}
+
+TEST_CASE("what has surface on one side alone is no wall") {
+  const Scene scene = scene_from_text(R"({
+    "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
+    "objects": [{"type": "box", "size": [2, 2, 2], "material": {"type": "diffuse"}}]})");
+  CHECK(wall_grid(scene, build_world(scene), 0, 0.1).size() == no_walls().size());
+}
