@@ -1,4 +1,5 @@
 // The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
+#include "channel_shifts.cl"
 #include "coverage_mean.cl"
 #include "gather.cl"
 #include "marked_cells.cl"
@@ -76,7 +77,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   Radiance radiance = radiance_none();
-  real density = (real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2);
+  real3 density = channel_unit(params.channel_shifts) * ((real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2));
   real widest = sqrt(radius2) * fmax((real)params.indirect_radius, (real)1);
   uint found = 0;
   // What the flux around a point counts for: over the area, in that of the own radius, that surfaces cover.
@@ -128,7 +129,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
         layers_gathered(&radiance, &sum, share * density, point.normal & BEYOND_RECEIVER);
     }
   }
-  real3 blur = (reflected - 4 * reflected_near) * (density / params.visible_points);
+  real3 blur = (reflected - 4 * reflected_near) * (density / (real)params.visible_points);
   if (found > 0) radiance.sum += reflected * density;
   radiance.sum /= params.visible_points;
   if (HAS(OUTPUT_LAYERS))

@@ -1,6 +1,7 @@
 // Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
 // medium scatters them.
 #include "aimed_photons.cl"
+#include "channel_shifts.cl"
 #include "emission_map.cl"
 #include "guided_photons.cl"
 #include "photon_event.cl"
@@ -53,6 +54,7 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
       wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
     }
   }
+  const real3 scale = channel_scale(params.channel_shifts);
 #if VECTORISED(LOOPED_EMISSION)
 #pragma clang loop vectorize(assume_safety)
 #endif
@@ -66,6 +68,7 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
     if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, aim_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
     Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
+    flux = product3(scale, flux);
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon;

@@ -56,7 +56,8 @@ typedef struct {
   uint nested;               // NESTED_* bits; 0 where no dielectric touches or holds anything
   float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
   float inside_direction[3];  // of the rays by which the dielectrics around a point are found
-  uint unused[2];
+  uint channel_shifts;       // log2 of what photons carry each channel times: a byte each, red the lowest; see channel_shifts.cl
+  uint unused;
 } Params;
 CHECK_SIZE(Params, 304);
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <sstream>
 
+#include "channel_shifts.hpp"
 #include "compare.hpp"
 #include "console.hpp"
 #include "error.hpp"
@@ -81,6 +82,8 @@ int render(const Options& options) {
   for (const auto& notice : scene.notices) progress.note(notice);
   if (options.outputs.empty()) progress.note(scene_output(scene).notice);
   progress.note(empty_view_notice(scene));
+  if (scene.renderer.integrator == Integrator::sppm)
+    for (const auto& notice : coarse_channel_notices(scene)) progress.note(notice);
   KernelCache kernels(options.keep_kernels);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   std::vector<std::unique_ptr<Device>> opened;

@@ -1,6 +1,7 @@
 // The scalars that every kernel of a render takes.
 #pragma once
 
+#include "channel_shifts.hpp"
 #include "device.hpp"
 #include "scene.hpp"
 #include "spectrum.hpp"
@@ -33,6 +34,7 @@ inline Params scene_params(const Scene& scene, const DeviceScene& device_scene, 
   params.sobol = scene.renderer.sampler == Sampler::sobol;
   params.emission_met = has_visible_light(scene);
   set_nested(params, device_scene.dielectrics);
+  params.channel_shifts = channel_shifts(scene);
   const auto to_float = [](double x) { return static_cast<float>(x); };
   const Vec3 scattering = scene.medium.scattering, extinction = scene.medium.absorption + scattering;
   params.extinction = {to_float(extinction.x), to_float(extinction.y), to_float(extinction.z),

@@ -107,6 +107,7 @@ const std::vector<Field> fields{
     FIELD(Params, segment),
     FIELD(Params, extinction),
     FIELD(Params, scattering),
+    FIELD(Params, channel_shifts),
     FIELD(SppmPixel, radius2_hi),
     FIELD(SppmPixel, radius2_lo),
     FIELD(SppmPixel, photons_low),
