@@ -1,6 +1,7 @@
 // What PNG and JPEG files say about their pixels beside them, which stb_image passes over.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ struct Transfer {
 };
 
 struct ImageMetadata {
-  int orientation = 1;               // see turn_upright()
+  int orientation = 1;               // see Upright
   std::optional<Transfer> transfer;  // of the colours, where the file names one other than sRGB's
   std::vector<std::string> notes;    // for the user, where its values are colours
 };
@@ -37,10 +38,27 @@ bool is_srgb_profile(std::string_view profile);
 /// The note about colours whose primaries are not those of sRGB; `where` is what in the file says so.
 std::string primaries_note(const std::string& where);
 
-/// Turns four floats a pixel so that the top row comes first and each row runs from left to right. EXIF and
-/// TIFF number the ways in which they can be stored: where the first row and the first column are to be,
-/// 1 top left, 2 top right, 3 bottom right, 4 bottom left, 5 left top, 6 right top, 7 right bottom,
-/// 8 left bottom.
-void turn_upright(int orientation, int& width, int& height, std::vector<float>& rgba);
+/// Where stored pixels are to be seen: the top row first, each from left to right. EXIF and TIFF number the
+/// ways in which they can be stored by the place of the first row and of the first column: 1 top left, 2 top
+/// right, 3 bottom right, 4 bottom left, 5 left top, 6 right top, 7 right bottom, 8 left bottom.
+class Upright {
+ public:
+  /// `width` and `height` are those of the stored pixels.
+  Upright(int orientation, int width, int height);
+
+  int width() const { return static_cast<int>(width_); }
+  int height() const { return static_cast<int>(height_); }
+  /// The number of the pixel that is stored at `row` and `column`.
+  std::size_t place(std::size_t row, std::size_t column) const {
+    std::size_t x = transposed_ ? row : column, y = transposed_ ? column : row;
+    if (from_right_) x = width_ - 1 - x;
+    if (from_bottom_) y = height_ - 1 - y;
+    return y * width_ + x;
+  }
+
+ private:
+  bool transposed_, from_right_, from_bottom_;
+  std::size_t width_, height_;
+};
 
 }  // namespace causticl

@@ -1,5 +1,4 @@
 // How the rows and columns of a file lie in its picture.
-#include <algorithm>
 #include <cstdint>
 
 #include "image_metadata.hpp"
@@ -32,27 +31,11 @@ int exif_orientation(std::string_view tiff) {
   return 1;
 }
 
-void turn_upright(int orientation, int& width, int& height, std::vector<float>& rgba) {
-  if (orientation <= 1 || orientation > 8) return;
-  const bool transposed = orientation >= 5;
-  const bool from_right = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
-  const bool from_bottom = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
-  const auto stored_width = static_cast<std::size_t>(width), stored_height = static_cast<std::size_t>(height);
-  const std::size_t out_width = transposed ? stored_height : stored_width;
-  const std::size_t out_height = transposed ? stored_width : stored_height;
-  std::vector<float> upright(rgba.size());
-  for (std::size_t row = 0; row < stored_height; ++row) {
-    for (std::size_t column = 0; column < stored_width; ++column) {
-      std::size_t x = transposed ? row : column, y = transposed ? column : row;
-      if (from_right) x = out_width - 1 - x;
-      if (from_bottom) y = out_height - 1 - y;
-      std::copy_n(rgba.begin() + static_cast<std::ptrdiff_t>(4 * (row * stored_width + column)), 4,
-                  upright.begin() + static_cast<std::ptrdiff_t>(4 * (y * out_width + x)));
-    }
-  }
-  rgba = std::move(upright);
-  width = static_cast<int>(out_width);
-  height = static_cast<int>(out_height);
-}
+Upright::Upright(int orientation, int width, int height)
+    : transposed_(orientation >= 5),
+      from_right_(orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7),
+      from_bottom_(orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8),
+      width_(static_cast<std::size_t>(transposed_ ? height : width)),
+      height_(static_cast<std::size_t>(transposed_ ? width : height)) {}
 
 }  // namespace causticl

@@ -12,7 +12,7 @@ namespace causticl {
 
 struct RadiancePicture {
   std::string bytes;                       // of the same pixels as stb_image reads them
-  int orientation = 1;                     // see turn_upright(), where each scanline is a row
+  int orientation = 1;                     // see Upright; each scanline is a row
   std::array<double, 3> factors{1, 1, 1};  // of red, green and blue: what EXPOSURE and COLORCORR undo
   bool is_xyz = false;                     // the pixels are CIE XYZ
   std::vector<std::string> notes;          // for the user

@@ -92,30 +92,40 @@ std::uint64_t check_stb_header(const std::string& bytes, const ImageLimits& limi
   return cost.working + 2 * cost.result + 3 * bytes.size() + rows;
 }
 
-/// Decodes to four floats a texel in the order of the file: integers as value/max, colours through
-/// `transfer`.
+/// Decodes to four floats a texel, top row first: integers as value/max, colours through `transfer`.
 template <typename T>
-void decode_stb_as(StbLoader<T> load, const std::string& bytes, const Transfer& transfer, Image& image) {
+void decode_stb_as(StbLoader<T> load, const std::string& bytes, const Transfer& transfer, int orientation,
+                   Image& image) {
   StbSource source{bytes};
   const stbi_io_callbacks io = StbSource::callbacks();
-  int channels = 0;
-  const std::unique_ptr<T, void (*)(void*)> pixels(
-      load(&io, &source, &image.width, &image.height, &channels, 4), stbi_image_free);
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<T, void (*)(void*)> pixels(load(&io, &source, &width, &height, &channels, 4),
+                                                   stbi_image_free);
   if (!pixels) throw std::runtime_error(stb_fault());
 
-  image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  if constexpr (std::is_floating_point_v<T>) {
-    std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
-  } else {
+  std::vector<float> alpha, color;  // of all integers
+  if constexpr (!std::is_floating_point_v<T>) {
     constexpr std::size_t most = std::numeric_limits<T>::max();
-    std::vector<float> alpha(most + 1), color(most + 1);
     for (std::size_t i = 0; i <= most; ++i) {
-      alpha[i] = static_cast<float>(i) / static_cast<float>(most);
-      color[i] = transfer.to_linear(alpha[i]);
+      alpha.push_back(static_cast<float>(i) / static_cast<float>(most));
+      color.push_back(transfer.to_linear(alpha[i]));
     }
-    for (std::size_t i = 0; i < image.rgba.size(); ++i)
-      image.rgba[i] = (i % 4 == 3 ? alpha : color)[pixels.get()[i]];
   }
+  const Upright upright(orientation, width, height);
+  image.width = upright.width();
+  image.height = upright.height();
+  image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const T* stored = pixels.get();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row)
+    for (std::size_t column = 0; column < static_cast<std::size_t>(width); ++column, stored += 4) {
+      float* texel = image.rgba.data() + 4 * upright.place(row, column);
+      for (std::size_t c = 0; c < 4; ++c) {
+        if constexpr (std::is_floating_point_v<T>)
+          texel[c] = stored[c];
+        else
+          texel[c] = (c == 3 ? alpha : color)[stored[c]];
+      }
+    }
 }
 
 /// What the file says about its pixels beside them.
@@ -133,9 +143,8 @@ void decode_radiance(const std::string& bytes, const ImageLimits& limits, Image&
   RadiancePicture picture = read_radiance(bytes, limits);
   const StbMemory memory(check_stb_header(picture.bytes, limits));
   stb_forget_failure();
-  decode_stb_as<float>(stbi_loadf_from_callbacks, picture.bytes, {}, image);
+  decode_stb_as<float>(stbi_loadf_from_callbacks, picture.bytes, {}, picture.orientation, image);
   finish_radiance(picture, image.rgba);
-  turn_upright(picture.orientation, image.width, image.height, image.rgba);
   image.notes = std::move(picture.notes);
 }
 
@@ -155,10 +164,9 @@ void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, 
   }
   stb_forget_failure();
   if (stbi_is_16_bit_from_memory(raw, length))
-    decode_stb_as<stbi_us>(stbi_load_16_from_callbacks, bytes, transfer, image);
+    decode_stb_as<stbi_us>(stbi_load_16_from_callbacks, bytes, transfer, metadata.orientation, image);
   else
-    decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, transfer, image);
-  turn_upright(metadata.orientation, image.width, image.height, image.rgba);
+    decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, transfer, metadata.orientation, image);
 }
 
 /// Four floats a texel, top row first.
