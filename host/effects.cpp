@@ -73,8 +73,7 @@ std::string delta_lights_reason(const Scene& scene) {
 std::string shadow_rays_reason(const Scene& scene) {
   if (scene.renderer.direct_light != DirectLight::shadow_rays) return "";
   const auto wanted = [&](const Object& object) {
-    const auto& material = scene.materials[static_cast<std::size_t>(object.material)];
-    return object.shape != Shape::plane && max_component(material.emission) > 0;
+    return object.shape != Shape::plane && is_lit(scene, object);
   };
   const std::string key = "/renderer/direct_light with the ";
   std::string surface =

@@ -14,10 +14,12 @@ struct Image {
   std::string file;
   int width = 0, height = 0;
   std::vector<float> rgba;
+  std::vector<std::string> notes = {};  // what the file says that is not applied, or not as usual
 };
 
-/// Reads PNG, JPEG, BMP, TGA, HDR (stb_image), PFM or EXR. `srgb` decodes 8-bit values by the sRGB curve;
-/// otherwise they are value/255. Throws UserError naming the file and the fault.
+/// Reads PNG, JPEG, BMP, TGA, HDR (stb_image), PFM or EXR, turned upright as the file says. `srgb` decodes
+/// integers by the sRGB curve, or by another that the file names; otherwise they are value/max. Throws
+/// UserError naming the file and the fault.
 Image read_image(const std::string& file, bool srgb, const ImageLimits& limits = {});
 
 /// One number of every pixel beside its colour, under the name that it has in an EXR file.

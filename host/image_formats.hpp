@@ -14,11 +14,14 @@ void check_image_size(long long width, long long height);
 /// Whether the bytes begin as an OpenEXR file does.
 bool is_exr(const std::string& bytes);
 
-/// Decodes an EXR file: four floats a pixel, top row first. A file with Y but no R, G, B is grey; a missing
-/// alpha is 1. Throws std::exception.
-void decode_exr(const std::string& bytes, int& width, int& height, std::vector<float>& rgba);
+/// Decodes an EXR file: four floats a pixel of its display window, top row first, by the channels that
+/// choose_exr_channels() finds. Black where the data window does not reach; a missing alpha is 1. Appends to
+/// `notes` what the user should know. Throws std::exception.
+void decode_exr(const std::string& bytes, int& width, int& height, std::vector<float>& rgba,
+                std::vector<std::string>* notes = nullptr);
 
-/// The channels of an EXR file whose names begin with `prefix`, top row first. Throws std::exception.
+/// The channels of an EXR file whose names begin with `prefix`, as decode_exr() gives pixels. Throws
+/// std::exception.
 std::vector<Channel> decode_exr_channels(const std::string& bytes, const std::string& prefix);
 
 /// R, G, B and all other channels as 32-bit floats, ZIP compressed, with one string attribute for each entry
@@ -31,8 +34,9 @@ bool is_pfm(const std::string& bytes);
 /// Clamp to [0, 1], power 1/2.2, 8 bits a channel. Throws std::runtime_error.
 std::string encode_png(const Picture& picture);
 
-/// PFM, colour (PF) or grey (Pf), of either byte order. Throws std::runtime_error.
-Picture decode_pfm(const std::string& bytes);
+/// PFM, colour (PF) or grey (Pf), of either byte order, times its scale factor. Appends to `notes` what the
+/// user should know. Throws std::runtime_error.
+Picture decode_pfm(const std::string& bytes, std::vector<std::string>* notes = nullptr);
 
 /// PFM, little-endian, bottom row first.
 std::string encode_pfm(const Picture& picture);

@@ -25,9 +25,9 @@ bool is_pfm(const std::string& bytes) {
          std::isspace(static_cast<unsigned char>(bytes[2]));
 }
 
-Picture decode_pfm(const std::string& bytes) {
-  // The header: PF or Pf, width, height, scale; one blank; then the rows. A negative scale says
-  // little-endian.
+Picture decode_pfm(const std::string& bytes, std::vector<std::string>* notes) {
+  // The header: PF or Pf, width, height, scale; one blank, or the line end of a Windows text; then the rows.
+  // A negative scale says little-endian; its magnitude is a factor.
   std::istringstream header(bytes.substr(0, 128));
   std::string magic;
   long long width = 0, height = 0;
@@ -37,7 +37,9 @@ Picture decode_pfm(const std::string& bytes) {
   if (!(header >> width >> height >> scale) || !std::isfinite(scale) || scale == 0)
     throw std::runtime_error("its header is damaged; expected width, height and scale");
   check_image_size(width, height);
-  const std::size_t begin = header.eof() ? bytes.size() : static_cast<std::size_t>(header.tellg()) + 1;
+  std::size_t begin = header.eof() ? bytes.size() : static_cast<std::size_t>(header.tellg()) + 1;
+  const bool windows_text = bytes.compare(2, 2, "\r\n") == 0;
+  if (windows_text && begin < bytes.size() && bytes[begin - 1] == '\r' && bytes[begin] == '\n') ++begin;
   const std::size_t channels = magic == "PF" ? 3 : 1;
   const std::size_t row = static_cast<std::size_t>(width) * channels;
   const std::size_t expected = row * static_cast<std::size_t>(height) * sizeof(float);
@@ -57,6 +59,11 @@ Picture decode_pfm(const std::string& bytes) {
       std::memcpy(&value, source + (channels == 3 ? i : i / 3) * sizeof(float), sizeof(float));
       target[i] = swap ? swapped(value) : value;
     }
+  }
+  const double factor = std::fabs(scale);
+  if (factor != 1) {
+    for (float& value : picture.rgb) value = static_cast<float>(value * factor);
+    if (notes) notes->push_back("its values are multiplied by the scale factor in its header");
   }
   return picture;
 }

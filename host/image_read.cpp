@@ -1,7 +1,6 @@
 #include <stb/stb_image.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -12,6 +11,8 @@
 
 #include "error.hpp"
 #include "image_formats.hpp"
+#include "image_metadata.hpp"
+#include "image_radiance.hpp"
 #include "input_file.hpp"
 #include "jpeg_markers.hpp"
 #include "stb_memory.hpp"
@@ -60,11 +61,6 @@ struct StbSource {
   }
 };
 
-/// The value of an sRGB component in [0, 1] (IEC 61966-2-1).
-float srgb_to_linear(float value) {
-  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
 constexpr const char* unknown_type = "expected PNG, JPEG, BMP, TGA, HDR, PFM or EXR";
 
 /// Why stb failed last. Some of its failures give no reason: what is left then is that of a format that the
@@ -96,30 +92,60 @@ std::uint64_t check_stb_header(const std::string& bytes, const ImageLimits& limi
   return cost.working + 2 * cost.result + 3 * bytes.size() + rows;
 }
 
-/// Decodes to four floats a texel, top row first: integers as value/max, colours through the sRGB curve where
-/// `srgb` says so.
+/// Decodes to four floats a texel, top row first: integers as value/max, colours through `transfer`.
 template <typename T>
-void decode_stb_as(StbLoader<T> load, const std::string& bytes, bool srgb, Image& image) {
+void decode_stb_as(StbLoader<T> load, const std::string& bytes, const Transfer& transfer, int orientation,
+                   Image& image) {
   StbSource source{bytes};
   const stbi_io_callbacks io = StbSource::callbacks();
-  int channels = 0;
-  const std::unique_ptr<T, void (*)(void*)> pixels(
-      load(&io, &source, &image.width, &image.height, &channels, 4), stbi_image_free);
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<T, void (*)(void*)> pixels(load(&io, &source, &width, &height, &channels, 4),
+                                                   stbi_image_free);
   if (!pixels) throw std::runtime_error(stb_fault());
 
-  image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  if constexpr (std::is_floating_point_v<T>) {
-    std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
-  } else {
+  std::vector<float> alpha, color;  // of all integers
+  if constexpr (!std::is_floating_point_v<T>) {
     constexpr std::size_t most = std::numeric_limits<T>::max();
-    std::vector<float> alpha(most + 1), color(most + 1);
     for (std::size_t i = 0; i <= most; ++i) {
-      alpha[i] = static_cast<float>(i) / static_cast<float>(most);
-      color[i] = srgb ? srgb_to_linear(alpha[i]) : alpha[i];
+      alpha.push_back(static_cast<float>(i) / static_cast<float>(most));
+      color.push_back(transfer.to_linear(alpha[i]));
     }
-    for (std::size_t i = 0; i < image.rgba.size(); ++i)
-      image.rgba[i] = (i % 4 == 3 ? alpha : color)[pixels.get()[i]];
   }
+  const Upright upright(orientation, width, height);
+  image.width = upright.width();
+  image.height = upright.height();
+  image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const T* stored = pixels.get();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row)
+    for (std::size_t column = 0; column < static_cast<std::size_t>(width); ++column, stored += 4) {
+      float* texel = image.rgba.data() + 4 * upright.place(row, column);
+      for (std::size_t c = 0; c < 4; ++c) {
+        if constexpr (std::is_floating_point_v<T>)
+          texel[c] = stored[c];
+        else
+          texel[c] = (c == 3 ? alpha : color)[stored[c]];
+      }
+    }
+}
+
+/// What the file says about its pixels beside them.
+ImageMetadata metadata_of(const std::string& bytes) {
+  if (bytes.starts_with("\x89PNG")) return png_metadata(bytes);
+  if (is_jpeg(bytes)) return jpeg_metadata(bytes);
+  ImageMetadata metadata;
+  // A TGA, known by no signature, whose rows run from right to left. stb_image sees which row comes first.
+  constexpr char right_to_left = 0x10;
+  if (!bytes.starts_with("BM") && (bytes[17] & right_to_left)) metadata.orientation = 2;
+  return metadata;
+}
+
+void decode_radiance(const std::string& bytes, const ImageLimits& limits, Image& image) {
+  RadiancePicture picture = read_radiance(bytes, limits);
+  const StbMemory memory(check_stb_header(picture.bytes, limits));
+  stb_forget_failure();
+  decode_stb_as<float>(stbi_loadf_from_callbacks, picture.bytes, {}, picture.orientation, image);
+  finish_radiance(picture, image.rgba);
+  image.notes = std::move(picture.notes);
 }
 
 void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, Image& image) {
@@ -128,19 +154,24 @@ void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, 
   const auto length = static_cast<int>(bytes.size());
   constexpr std::size_t smallest = 18;  // a TGA's header; with less stb could not even look for the type
   if (bytes.size() < smallest) throw std::runtime_error(unknown_type);
+  if (is_radiance(bytes)) return decode_radiance(bytes, limits, image);
   const StbMemory memory(check_stb_header(bytes, limits));
+  ImageMetadata metadata = metadata_of(bytes);
+  Transfer transfer;
+  if (srgb) {
+    transfer = metadata.transfer.value_or(Transfer{Transfer::Curve::srgb});
+    image.notes = std::move(metadata.notes);
+  }
   stb_forget_failure();
-  if (stbi_is_hdr_from_memory(raw, length))
-    decode_stb_as<float>(stbi_loadf_from_callbacks, bytes, srgb, image);
-  else if (stbi_is_16_bit_from_memory(raw, length))
-    decode_stb_as<stbi_us>(stbi_load_16_from_callbacks, bytes, srgb, image);
+  if (stbi_is_16_bit_from_memory(raw, length))
+    decode_stb_as<stbi_us>(stbi_load_16_from_callbacks, bytes, transfer, metadata.orientation, image);
   else
-    decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, srgb, image);
+    decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, transfer, metadata.orientation, image);
 }
 
 /// Four floats a texel, top row first.
 void decode_pfm_texels(const std::string& bytes, const ImageLimits& limits, Image& image) {
-  const Picture picture = decode_pfm(bytes);
+  const Picture picture = decode_pfm(bytes, &image.notes);
   image.width = picture.width;
   image.height = picture.height;
   check_image_cost({picture.width, picture.height, 0, picture.rgb.size() * sizeof(float)}, bytes.size(),
@@ -166,7 +197,7 @@ Image read_image(const std::string& file, bool srgb, const ImageLimits& limits) 
   try {
     if (is_exr(bytes)) {
       check_image_cost(exr_cost(bytes), bytes.size(), limits);
-      decode_exr(bytes, image.width, image.height, image.rgba);
+      decode_exr(bytes, image.width, image.height, image.rgba, &image.notes);
     } else if (is_pfm(bytes)) {
       decode_pfm_texels(bytes, limits, image);
     } else {

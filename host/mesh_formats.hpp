@@ -6,11 +6,12 @@
 
 namespace causticl {
 
-/// Wavefront OBJ: v, vt, vn and f; free-form geometry, lines, points, groups and materials are passed over.
+/// Wavefront OBJ: v, vt, vn and f, which may stand before what it uses; free-form geometry, lines, points,
+/// groups and materials are passed over.
 void read_obj(MeshInput& input, Mesh& mesh);
 
-/// Stanford PLY (Turk 1994), ASCII or binary: vertex x y z, nx ny nz, and s t or u v; face vertex_indices.
-/// Other elements and properties are passed over.
+/// Stanford PLY (Turk 1994), ASCII or binary: vertex x y z, nx ny nz, and s t or u v; face vertex_indices,
+/// and texcoord, (u, v) for each of its corners. Other elements and properties are passed over.
 void read_ply(MeshInput& input, Mesh& mesh);
 
 }  // namespace causticl

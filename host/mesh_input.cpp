@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -17,7 +18,22 @@ constexpr std::size_t block_size = 1 << 20;
 // A longer line is no mesh: it bounds what a binary file without line ends can make us hold.
 constexpr std::size_t longest_line = 64 << 20;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+constexpr char dos_end_of_file = '\x1a';
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == dos_end_of_file;
+}
+
+/// Whether a text that begins so has two or four bytes a character: by its byte order mark, or because every
+/// other byte of its first two characters is 0.
+bool is_wide_text(std::string_view begin) {
+  if (begin.size() < 4) return false;
+  if (begin.substr(0, 2) == "\xff\xfe" || begin.substr(0, 2) == "\xfe\xff") return true;
+  const auto printable = [&](std::size_t i) { return begin[i] >= ' ' && begin[i] <= '~'; };
+  const std::string_view wide_mark("\0\0\xfe\xff", 4);
+  return begin.substr(0, 4) == wide_mark || (begin[0] == 0 && printable(1) && begin[2] == 0) ||
+         (printable(0) && begin[1] == 0 && begin[3] == 0);
+}
 
 }  // namespace
 
@@ -33,6 +49,14 @@ MeshInput::MeshInput(const std::string& file) : file_(file) {
   }
   std::setvbuf(handle_.get(), nullptr, _IONBF, 0);
   buffer_.resize(block_size);
+  skip_byte_order_mark();
+}
+
+void MeshInput::skip_byte_order_mark() {
+  while (end_ < 4 && fill()) continue;
+  const std::string_view begin(buffer_.data(), end_);
+  if (is_wide_text(begin)) fail_file("is text in UTF-16 or UTF-32; expected UTF-8 or ASCII: save it so");
+  if (begin.substr(0, 3) == "\xef\xbb\xbf") begin_ = position_ = 3;
 }
 
 bool MeshInput::fill() {
@@ -48,28 +72,42 @@ bool MeshInput::fill() {
   return count > 0;
 }
 
+/// The end of a line that begins `offset` bytes into what is unread: \n, \r\n, or \r alone. A \r that some
+/// program has doubled (\r\r\n) counts with it.
+std::string_view MeshInput::line_end_at(std::size_t offset) {
+  while (end_ - begin_ < offset + 3 && fill()) continue;
+  const std::string_view rest(buffer_.data() + begin_ + offset,
+                              std::min<std::size_t>(3, end_ - begin_ - offset));
+  for (const std::string_view end : {"\r\r\n", "\r\n", "\n"}) {
+    // Where \r alone ends lines, a \n after it is the first byte of what follows the header.
+    if (rest.substr(0, end.size()) == end && (line_end_ != "\r" || end == "\n")) return end;
+  }
+  return "\r";
+}
+
 bool MeshInput::line(std::string_view& text) {
-  std::size_t searched = 0;
-  const char* newline = nullptr;
+  std::size_t length = 0;
+  const auto is_end = [](char c) { return c == '\n' || c == '\r'; };
   while (true) {
-    const char* start = buffer_.data() + begin_ + searched;
-    const std::size_t unsearched = end_ - begin_ - searched;
-    newline = unsearched ? static_cast<const char*>(std::memchr(start, '\n', unsearched)) : nullptr;
-    if (newline) break;
-    searched = end_ - begin_;
-    if (searched > longest_line) {
+    const char* begin = buffer_.data() + begin_;
+    const char* unread = buffer_.data() + end_;
+    length = static_cast<std::size_t>(std::find_if(begin + length, unread, is_end) - begin);
+    if (begin + length != unread) break;
+    if (length > longest_line) {
       ++line_number_;
       fail("the line is longer than 64 MiB; is this a mesh file?");
     }
     if (!fill()) break;
   }
-  const std::size_t length = newline ? newline - (buffer_.data() + begin_) : end_ - begin_;
-  if (!newline && length == 0) return false;
+  const bool has_end = length < end_ - begin_;
+  if (!has_end && length == 0) return false;
+  std::string_view end;
+  if (has_end) end = line_end_at(length);
+  if (line_number_ == 0) line_end_ = end;
   text = {buffer_.data() + begin_, length};
-  begin_ += length + (newline ? 1 : 0);
-  position_ += length + (newline ? 1 : 0);
+  begin_ += length + end.size();
+  position_ += length + end.size();
   ++line_number_;
-  if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   return true;
 }
 
@@ -83,8 +121,8 @@ const unsigned char* MeshInput::bytes(std::size_t count) {
   return result;
 }
 
-void MeshInput::fail(const std::string& fault) const {
-  throw UserError(file_ + ":" + std::to_string(line_number_) + ": " + fault);
+void MeshInput::fail_at(std::uint64_t line, const std::string& fault) const {
+  throw UserError(file_ + ":" + std::to_string(line) + ": " + fault);
 }
 
 void MeshInput::fail_file(const std::string& fault) const { throw UserError(file_ + ": " + fault); }
@@ -99,11 +137,28 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
+namespace {
+
+/// What the C library of Windows printed for infinities and for what is no number, with any sign and any
+/// number of zeros behind it: 1.#INF, 1.#IND, 1.#QNAN, 1.#SNAN; cut to few digits, 1.#J and 1.#R.
+bool is_windows_nan(std::string_view word) {
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+  if (word.substr(0, 3) != "1.#") return false;
+  word.remove_prefix(3);
+  return !word.empty() &&
+         (word[0] == 'I' || word[0] == 'Q' || word[0] == 'S' || word[0] == 'J' || word[0] == 'R');
+}
+
+}  // namespace
+
 bool parse_number(std::string_view word, double& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars has no plus
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (stop != end || error == std::errc::invalid_argument) return false;
+  if (stop != end || error == std::errc::invalid_argument) {
+    value = std::numeric_limits<double>::quiet_NaN();
+    return is_windows_nan(word);
+  }
   if (error == std::errc::result_out_of_range) {
     // Too small or too large for a double; only the sign of the exponent tells.
     const auto exponent = word.find_first_of("eE");
@@ -119,6 +174,13 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   return stop == end && error == std::errc{};
+}
+
+std::string no_number(std::string_view word) {
+  const auto comma = word.find(',');
+  const bool decimal =
+      comma != word.npos && comma > 0 && word.find_first_not_of("+-0123456789,eE") == word.npos;
+  return quoted(word) + " is not a number" + (decimal ? "; write a decimal point in place of the comma" : "");
 }
 
 std::string quoted(std::string_view word) {

@@ -1,10 +1,7 @@
-#include <bit>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 
 #include "mesh_formats.hpp"
-#include "mesh_ply_header.hpp"
+#include "mesh_ply_records.hpp"
 #include "mesh_polygon.hpp"
 
 namespace causticl {
@@ -12,212 +9,168 @@ namespace {
 
 using namespace ply;
 
-template <typename T>
-double decode(const unsigned char* bytes, bool swap) {
-  unsigned char raw[sizeof(T)];
-  for (std::size_t i = 0; i < sizeof(T); ++i) raw[i] = bytes[swap ? sizeof(T) - 1 - i : i];
-  T value;
-  std::memcpy(&value, raw, sizeof(T));
-  return static_cast<double>(value);
-}
-
-std::string shortest(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.12g", number);
-  return text;
-}
-
 class PlyReader {
  public:
-  PlyReader(MeshInput& input, Mesh& mesh) : input_(input), mesh_(mesh) {}
+  PlyReader(MeshInput& input, Mesh& mesh)
+      : mesh_(mesh), header_(read_header(input)), records_(input, header_.format) {}
 
   void read() {
-    const Header header = read_header(input_);
-    format_ = header.format;
-    swap_ = (format_ == Format::big_endian) != (std::endian::native == std::endian::big);
-    for (const Element& element : header.elements) {
-      element_ = &element;
-      check_count();
+    for (const Element& element : header_.elements) {
+      records_.begin(element);
       if (element.name == "vertex") {
-        read_vertices();
+        vertices_ = element.count;
+        read_vertices(element);
       } else if (element.name == "face") {
-        read_faces();
+        read_faces(element);
       } else if (!element.properties.empty()) {
-        for (index_ = 0; index_ < element.count; ++index_) {
-          begin_record();
-          for (const Property& property : element.properties) skip(property);
-          end_record();
+        while (records_.next()) {
+          for (const Property& property : element.properties) records_.skip(property);
+          records_.end_record();
         }
       }
     }
+    for (const Face& face : forward_faces_) add_face(face);
+    if (mesh_.uv_index.empty()) mesh_.uv_index = index_of_vertices(has_uvs_);
+    mesh_.normal_index = index_of_vertices(!mesh_.normals.empty());
+    add_notes();
   }
 
  private:
-  MeshInput& input_;
+  struct Face {
+    std::vector<std::uint32_t> corners;
+    std::vector<double> uvs;  // two a corner, or none
+    double texture = 0;       // which one, of those that the file's material has
+  };
+
   Mesh& mesh_;
-  Format format_ = Format::ascii;
-  bool swap_ = false;
-  const Element* element_ = nullptr;  // the one being read
-  std::uint64_t index_ = 0;           // which of them
-  std::string_view line_;             // what is left of its line (ASCII)
-
-  [[noreturn]] void fail(const std::string& fault) const {
-    const std::string message = element_->name + " " + std::to_string(index_) + ": " + fault;
-    format_ == Format::ascii ? input_.fail(message) : input_.fail_file(message);
-  }
-
-  /// Refuses a count that the rest of the file cannot hold, before memory is asked for.
-  void check_count() const {
-    if ((element_->name == "vertex" || element_->name == "face") && element_->count >= no_index)
-      input_.fail_file("the header declares " + std::to_string(element_->count) + " of element " +
-                       quoted(element_->name) + "; expected at most 4294967294");
-    std::uint64_t smallest = 0;  // bytes of a record
-    for (const Property& property : element_->properties)
-      smallest += format_ == Format::ascii ? 2 : size_of(property.count_type.value_or(property.type));
-    // The last line may lack its end.
-    const std::uint64_t room = input_.remaining() + (format_ == Format::ascii ? 1 : 0);
-    if (smallest > 0 && element_->count > room / smallest)
-      input_.fail_file("the header declares " + std::to_string(element_->count) + " of element " +
-                       quoted(element_->name) + ", but only " + std::to_string(input_.remaining()) +
-                       " bytes follow; is the file truncated?");
-  }
-
-  void begin_record() {
-    if (format_ != Format::ascii) return;
-    do {
-      if (!input_.line(line_)) fail("the file ends before it; is it truncated?");
-      while (!line_.empty() && (line_.front() == ' ' || line_.front() == '\t')) line_.remove_prefix(1);
-    } while (line_.empty());
-  }
-
-  void end_record() {
-    if (format_ != Format::ascii) return;
-    if (const auto word = next_word(line_); !word.empty())
-      fail(quoted(word) + " is more than the header declares for it");
-  }
-
-  double value(Type type) {
-    if (format_ == Format::ascii) {
-      const std::string_view word = next_word(line_);
-      double result = 0;
-      if (word.empty()) fail("has fewer values than the header declares");
-      if (!parse_number(word, result)) fail(quoted(word) + " is not a number");
-      return result;
-    }
-    const unsigned char* bytes = input_.bytes(size_of(type));
-    if (!bytes) fail("the file ends within it; is it truncated?");
-    switch (type) {
-      case Type::int8:
-        return decode<std::int8_t>(bytes, swap_);
-      case Type::uint8:
-        return decode<std::uint8_t>(bytes, swap_);
-      case Type::int16:
-        return decode<std::int16_t>(bytes, swap_);
-      case Type::uint16:
-        return decode<std::uint16_t>(bytes, swap_);
-      case Type::int32:
-        return decode<std::int32_t>(bytes, swap_);
-      case Type::uint32:
-        return decode<std::uint32_t>(bytes, swap_);
-      case Type::float32:
-        return decode<float>(bytes, swap_);
-      case Type::float64:
-        return decode<double>(bytes, swap_);
-    }
-    return 0;
-  }
-
-  std::uint64_t list_count(const Property& property) {
-    const double count = value(*property.count_type);
-    if (!(count >= 0) || count != std::floor(count))
-      fail("list " + quoted(property.name) + " has " + shortest(count) + " entries");
-    const std::size_t smallest = format_ == Format::ascii ? 1 : size_of(property.type);
-    const std::uint64_t room = format_ == Format::ascii ? line_.size() : input_.remaining();
-    const std::uint64_t most = room / smallest;
-    if (count > static_cast<double>(most))
-      fail("list " + quoted(property.name) + " has " + shortest(count) +
-           " entries, more than the rest of the file holds");
-    return static_cast<std::uint64_t>(count);
-  }
-
-  void skip(const Property& property) {
-    const std::uint64_t count = property.count_type ? list_count(property) : 1;
-    for (std::uint64_t i = 0; i < count; ++i) value(property.type);
-  }
-
-  float finite(const std::array<double, roles>& values, Role role) const {
-    const auto result = static_cast<float>(values[role]);
-    if (!std::isfinite(result)) fail("a coordinate is not a finite number");
-    return result;
-  }
-
-  void read_vertices() {
-    const bool normals = element_->has(nx) && element_->has(ny) && element_->has(nz);
-    const bool uvs = element_->has(u) && element_->has(v);
-    mesh_.positions.reserve(element_->count);
-    if (normals) mesh_.normals.reserve(element_->count);
-    if (uvs) mesh_.uvs.reserve(element_->count);
-    std::array<double, roles> values{};
-    for (index_ = 0; index_ < element_->count; ++index_) {
-      begin_record();
-      for (const Property& property : element_->properties) {
-        if (property.role < roles)
-          values[property.role] = value(property.type);
-        else
-          skip(property);
-      }
-      end_record();
-      mesh_.positions.push_back({finite(values, x), finite(values, y), finite(values, z)});
-      if (normals) mesh_.normals.push_back({finite(values, nx), finite(values, ny), finite(values, nz)});
-      if (uvs) mesh_.uvs.push_back({finite(values, u), finite(values, v)});
-    }
-  }
-
-  void read_faces() {
-    mesh_.position_index.reserve(element_->count);
-    std::vector<std::uint32_t> face;
-    for (index_ = 0; index_ < element_->count; ++index_) {
-      begin_record();
-      for (const Property& property : element_->properties) {
-        if (property.role == indices)
-          read_indices(property, face);
-        else
-          skip(property);
-      }
-      end_record();
-      add_face(face);
-    }
-    // A vertex carries its normal and (u, v) with it.
-    const std::vector<std::array<std::uint32_t, 3>> none(mesh_.triangles(), {no_index, no_index, no_index});
-    mesh_.normal_index = mesh_.normals.empty() ? none : mesh_.position_index;
-    mesh_.uv_index = mesh_.uvs.empty() ? none : mesh_.position_index;
-  }
-
-  void read_indices(const Property& property, std::vector<std::uint32_t>& face) {
-    const std::uint64_t count = list_count(property);
-    if (count < 3) fail("has " + std::to_string(count) + " corners; expected at least 3");
-    face.clear();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const double index = value(property.type);
-      if (!(index >= 0 && index < static_cast<double>(mesh_.positions.size())) || index != std::floor(index))
-        fail("vertex index " + shortest(index) + " is out of range; there are " +
-             std::to_string(mesh_.positions.size()) + " vertices");
-      face.push_back(static_cast<std::uint32_t>(index));
-    }
-  }
-
-  std::vector<std::array<float, 3>> polygon_;
+  const Header header_;
+  Records records_;
+  std::uint64_t vertices_ = 0;  // read so far
+  bool has_uvs_ = false;        // the vertices
+  std::vector<Face> forward_faces_;
+  std::vector<std::array<double, 3>> polygon_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::size_t bad_uvs_ = 0, uneven_uvs_ = 0;
+  double first_texture_ = 0;
+  bool several_textures_ = false;
 
-  void add_face(const std::vector<std::uint32_t>& face) {
-    if (face.size() == 3) {
-      mesh_.position_index.push_back({face[0], face[1], face[2]});
-      return;
+  /// A vertex carries its normal and (u, v) with it: the same indices as of positions.
+  std::vector<std::array<std::uint32_t, 3>> index_of_vertices(bool exists) const {
+    return exists
+               ? mesh_.position_index
+               : std::vector<std::array<std::uint32_t, 3>>(mesh_.triangles(), {no_index, no_index, no_index});
+  }
+
+  double coordinate(double value) const {
+    if (!std::isfinite(static_cast<float>(value))) records_.fail("a coordinate is not a finite number");
+    return value;
+  }
+
+  std::array<double, 2> uv_of(double u_value, double v_value) {
+    if (std::isfinite(static_cast<float>(u_value)) && std::isfinite(static_cast<float>(v_value)))
+      return {u_value, v_value};
+    ++bad_uvs_;
+    return {};
+  }
+
+  void read_vertices(const Element& element) {
+    const bool normals = element.has(nx) && element.has(ny) && element.has(nz);
+    has_uvs_ = element.has(u) && element.has(v);
+    mesh_.positions.reserve(element.count);
+    if (normals) mesh_.normals.reserve(element.count);
+    if (has_uvs_) mesh_.uvs.reserve(element.count);
+    std::array<double, roles> values{};
+    while (records_.next()) {
+      for (const Property& property : element.properties) {
+        if (property.role < roles)
+          values[property.role] = records_.value(property.type);
+        else
+          records_.skip(property);
+      }
+      records_.end_record();
+      mesh_.positions.push_back({coordinate(values[x]), coordinate(values[y]), coordinate(values[z])});
+      if (normals)
+        mesh_.normals.push_back(
+            {static_cast<float>(values[nx]), static_cast<float>(values[ny]), static_cast<float>(values[nz])});
+      if (has_uvs_) mesh_.uvs.push_back(uv_of(values[u], values[v]));
     }
+  }
+
+  void read_faces(const Element& element) {
+    mesh_.position_index.reserve(element.count);
+    Face face;
+    for (std::uint64_t count = 0; records_.next(); ++count) {
+      face.uvs.clear();
+      for (const Property& property : element.properties) {
+        if (property.role == indices)
+          read_corners(property, face.corners);
+        else if (property.role == corner_uvs)
+          read_uvs(property, face.uvs);
+        else if (property.role == texture_number)
+          face.texture = records_.value(property.type);
+        else
+          records_.skip(property);
+      }
+      records_.end_record();
+      if (element.has(corner_uvs) && face.uvs.size() != 2 * face.corners.size()) {
+        uneven_uvs_ += !face.uvs.empty();
+        face.uvs.clear();
+      }
+      if (count == 0) first_texture_ = face.texture;
+      several_textures_ = several_textures_ || face.texture != first_texture_;
+      if (vertices_ > 0)
+        add_face(face);
+      else
+        forward_faces_.push_back(face);
+    }
+  }
+
+  void read_corners(const Property& property, std::vector<std::uint32_t>& corners) {
+    const std::uint64_t count = records_.list_count(property);
+    if (count < 3) records_.fail("has " + std::to_string(count) + " corners; expected at least 3");
+    corners.clear();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const double index = records_.value(property.type);
+      if (!(index >= 0 && index < static_cast<double>(header_.vertices)) || index != std::floor(index))
+        records_.fail("vertex index " + shortest(index) + " is out of range; there are " +
+                      std::to_string(header_.vertices) + " vertices");
+      if (index >= no_index) records_.fail("vertex index " + shortest(index) + " does not fit 32 bits");
+      corners.push_back(static_cast<std::uint32_t>(index));
+    }
+  }
+
+  void read_uvs(const Property& property, std::vector<double>& uvs) {
+    const std::uint64_t count = records_.list_count(property);
+    for (std::uint64_t i = 0; i < count; ++i) uvs.push_back(records_.value(property.type));
+  }
+
+  void add_face(const Face& face) {
     polygon_.clear();
-    for (const std::uint32_t index : face) polygon_.push_back(mesh_.positions[index]);
+    for (const std::uint32_t index : face.corners) polygon_.push_back(mesh_.positions[index]);
     triangulate_polygon(polygon_, triangles_);
-    for (const auto& [a, b, c] : triangles_) mesh_.position_index.push_back({face[a], face[b], face[c]});
+    for (const auto& [a, b, c] : triangles_)
+      mesh_.position_index.push_back({face.corners[a], face.corners[b], face.corners[c]});
+    if (!header_.has_corner_uvs) return;
+    const auto first = static_cast<std::uint32_t>(mesh_.uvs.size());
+    for (std::size_t i = 0; i < face.uvs.size(); i += 2)
+      mesh_.uvs.push_back(uv_of(face.uvs[i], face.uvs[i + 1]));
+    const auto uv_index = [&](std::uint32_t corner) {
+      return !face.uvs.empty() ? first + corner : has_uvs_ ? face.corners[corner] : no_index;
+    };
+    for (const auto& [a, b, c] : triangles_)
+      mesh_.uv_index.push_back({uv_index(a), uv_index(b), uv_index(c)});
+  }
+
+  void add_notes() {
+    if (bad_uvs_ > 0)
+      mesh_.notes.push_back(std::to_string(bad_uvs_) +
+                            " of its texture coordinates are no numbers and taken as (0, 0)");
+    if (uneven_uvs_ > 0)
+      mesh_.notes.push_back(std::to_string(uneven_uvs_) +
+                            " of its faces have texture coordinates that are not two a corner: passed over");
+    if (several_textures_)
+      mesh_.notes.push_back(
+          "its faces name several textures (texnumber): the object's one is on all of them");
   }
 };
 

@@ -1,5 +1,7 @@
 #include "mesh_ply_header.hpp"
 
+#include <cctype>
+
 namespace causticl::ply {
 namespace {
 
@@ -16,13 +18,39 @@ std::optional<Type> parse_type(std::string_view word) {
   return {};
 }
 
-Role vertex_role(std::string_view name) {
+Role vertex_role(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   constexpr std::string_view names[roles] = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
   for (int role = 0; role < roles; ++role)
     if (name == names[role]) return Role(role);
   if (name == "s" || name == "texture_u" || name == "texture_s") return u;
   if (name == "t" || name == "texture_v" || name == "texture_t") return v;
   return unused;
+}
+
+bool is_integer(Type type) { return type != Type::float32 && type != Type::float64; }
+
+Role face_role(const Property& property) {
+  const bool is_list = property.count_type.has_value();
+  if (is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) return indices;
+  if (is_list && (property.name == "texcoord" || property.name == "texcoords")) return corner_uvs;
+  if (!is_list && property.name == "texnumber") return texture_number;
+  return unused;
+}
+
+/// Where no list of the faces has the usual name, finds the one that holds their vertices: the only one of
+/// integers, or the only one of these whose name speaks of vertices or indices.
+void find_indices(Element& face) {
+  std::vector<Property*> lists, named;
+  for (Property& property : face.properties) {
+    if (property.role != unused || !property.count_type || !is_integer(property.type)) continue;
+    if (property.name.starts_with("tex")) continue;  // numbers of textures
+    lists.push_back(&property);
+    if (property.name.find("vert") != std::string::npos || property.name.find("ind") != std::string::npos)
+      named.push_back(&property);
+  }
+  const auto& found = lists.size() == 1 ? lists : named;
+  if (found.size() == 1) found[0]->role = indices;
 }
 
 class HeaderReader {
@@ -104,22 +132,23 @@ class HeaderReader {
     if (property.name.empty()) input_.fail("the property has no name");
     const std::string& element = header_.elements.back().name;
     if (element == "vertex" && !property.count_type) property.role = vertex_role(property.name);
-    if (element == "face" && property.count_type &&
-        (property.name == "vertex_indices" || property.name == "vertex_index"))
-      property.role = indices;
+    if (element == "face") property.role = face_role(property);
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  void check() const {
+  void check() {
     bool vertices = false;
-    for (const Element& element : header_.elements) {
+    for (Element& element : header_.elements) {
       if (element.name == "vertex") {
         vertices = true;
+        header_.vertices = element.count;
         if (!element.has(x) || !element.has(y) || !element.has(z))
           input_.fail("element vertex lacks x, y or z");
-      } else if (element.name == "face" && element.count > 0) {
-        if (!vertices) input_.fail("element face stands before element vertex; expected vertices first");
-        if (!element.has(indices)) input_.fail("element face has no list vertex_indices");
+      } else if (element.name == "face") {
+        if (!element.has(indices)) find_indices(element);
+        if (!element.has(indices) && element.count > 0)
+          input_.fail("element face has no list of vertices; expected a list vertex_indices");
+        header_.has_corner_uvs = element.has(corner_uvs);
       }
     }
     if (!vertices) input_.fail("the header has no element vertex");

@@ -16,7 +16,7 @@ enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 std::size_t size_of(Type type);
 
 // What a property means to us: where its value goes.
-enum Role { x, y, z, nx, ny, nz, u, v, roles, indices, unused };
+enum Role { x, y, z, nx, ny, nz, u, v, roles, indices, corner_uvs, texture_number, unused };
 
 struct Property {
   std::string name;
@@ -40,10 +40,12 @@ struct Element {
 struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
+  std::uint64_t vertices = 0;
+  bool has_corner_uvs = false;  // the faces
 };
 
 /// Reads up to and including end_header. Throws UserError unless there is an element vertex with x, y and z,
-/// and after it any faces with a list vertex_indices or vertex_index.
+/// and any faces have a list of vertices: vertex_indices, vertex_index, or the only list that can be one.
 Header read_header(MeshInput& input);
 
 }  // namespace causticl::ply

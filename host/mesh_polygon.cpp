@@ -17,13 +17,13 @@ double signed_area(Point2 a, Point2 b, Point2 c) {
 
 /// The corners along the two axes that the polygon's normal is farthest from, seen so that the polygon runs
 /// counter-clockwise.
-std::vector<Point2> project(const std::vector<std::array<float, 3>>& corners) {
+std::vector<Point2> project(const std::vector<std::array<double, 3>>& corners) {
   Vec3 normal;  // Newell: twice the vector area, robust for concave and nearly flat polygons
   for (std::size_t i = 0; i < corners.size(); ++i) {
     // Relative to the first corner, so that a small polygon far from the origin keeps its digits.
     const auto relative = [&](std::size_t k) {
       const auto &p = corners[k % corners.size()], &o = corners[0];
-      return Vec3{double(p[0]) - o[0], double(p[1]) - o[1], double(p[2]) - o[2]};
+      return Vec3{p[0] - o[0], p[1] - o[1], p[2] - o[2]};
     };
     normal = normal + cross(relative(i), relative(i + 1));
   }
@@ -34,8 +34,7 @@ std::vector<Point2> project(const std::vector<std::array<float, 3>>& corners) {
   if (normal[axis] < 0) std::swap(u, v);
   std::vector<Point2> result;
   result.reserve(corners.size());
-  for (const auto& p : corners)
-    result.push_back({double(p[u]) - corners[0][u], double(p[v]) - corners[0][v]});
+  for (const auto& p : corners) result.push_back({p[u] - corners[0][u], p[v] - corners[0][v]});
   return result;
 }
 
@@ -89,7 +88,7 @@ class Ring {
 
 }  // namespace
 
-void triangulate_polygon(const std::vector<std::array<float, 3>>& corners,
+void triangulate_polygon(const std::vector<std::array<double, 3>>& corners,
                          std::vector<std::array<std::uint32_t, 3>>& triangles) {
   if (corners.size() == 3) {
     triangles.assign(1, {0, 1, 2});

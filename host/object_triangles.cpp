@@ -87,6 +87,11 @@ bool visit_mesh(const Object& object, const Mesh& mesh, const TriangleVisitor& v
 
 }  // namespace
 
+float triangle_area(const TriangleCorner (&corners)[3]) {
+  const Vec3 e = corners[1].position - corners[0].position, f = corners[2].position - corners[0].position;
+  return static_cast<float>(0.5 * length(cross(e, f)));
+}
+
 bool visit_triangles(const Scene& scene, const Object& object, const TriangleVisitor& visit) {
   switch (object.shape) {
     case Shape3::mesh:

@@ -13,6 +13,9 @@ struct TriangleCorner {
   double u = 0, v = 0;
 };
 
+/// Half the length of the cross product of two edges, as a float: 0 for what is too small to be one.
+float triangle_area(const TriangleCorner (&corners)[3]);
+
 /// Takes a triangle, and whether its normals are for shading; false to be told of no more.
 using TriangleVisitor = std::function<bool(const TriangleCorner (&)[3], bool smooth)>;
 

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "error.hpp"
+#include "object_triangles.hpp"
 #include "scene_loader.hpp"
 #include "scene_output.hpp"
 
@@ -75,13 +76,37 @@ void refuse_infinite_light(const JsonReader& json, const Scene& scene) {
         "from infinitely far, got one; use a large disk or a point light");
 }
 
+// As a float, which is what the kernels see: the smallest doubles are none.
+float emission_of(const Scene& scene, const Object& object) {
+  return static_cast<float>(
+      max_component(scene.materials[static_cast<std::size_t>(object.material)].emission));
+}
+
 void warn_without_light(const JsonReader& json, SceneLoader& loader) {
-  if (!has_light(loader.scene)) loader.notice(json, "no light: the image will be black");
+  std::string flat;
+  for (const Object& object : loader.scene.objects)
+    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object))
+      flat = flat.empty() ? object.pointer : flat.ends_with(" and others") ? flat : flat + " and others";
+  if (!flat.empty()) flat += " should emit light, but without an area gives none";
+  if (!has_light(loader.scene))
+    loader.notice(json, "no light: the image will be black" + (flat.empty() ? "" : "; " + flat));
+  else if (!flat.empty())
+    loader.notice(json, flat);
 }
 
 }  // namespace
 
 bool is_lit(const DeltaLight& light) { return static_cast<float>(max_component(light.intensity)) > 0; }
+
+bool is_lit(const Scene& scene, const Object& object) {
+  if (!(emission_of(scene, object) > 0)) return false;
+  bool is_made_of_triangles = false;
+  const bool has_none = visit_triangles(scene, object, [&](const TriangleCorner(&corners)[3], bool) {
+    is_made_of_triangles = true;
+    return !(triangle_area(corners) > 0);
+  });
+  return !has_none || !is_made_of_triangles;
+}
 
 bool is_lit(const Environment& environment) {
   const std::vector<float>& rgba = environment.map.rgba;
@@ -99,9 +124,8 @@ bool has_light(const Scene& scene) {
 
 bool has_visible_light(const Scene& scene) {
   return (scene.environment && is_lit(*scene.environment)) ||
-         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-           return max_component(scene.materials[static_cast<std::size_t>(object.material)].emission) > 0;
-         });
+         std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& object) { return is_lit(scene, object); });
 }
 
 bool has_infinite_light(const Scene& scene) {

@@ -145,6 +145,9 @@ struct Scene {
 bool is_lit(const DeltaLight& light);
 bool is_lit(const Environment& environment);
 
+/// Whether the object gives any light: it emits, and has an area.
+bool is_lit(const Scene& scene, const Object& object);
+
 /// Whether anything in the scene emits light.
 bool has_light(const Scene& scene);
 

@@ -4,6 +4,7 @@
 
 #include "asset_file.hpp"
 #include "error.hpp"
+#include "mesh_orientation.hpp"
 #include "scene_loader.hpp"
 
 namespace causticl {
@@ -58,6 +59,7 @@ int SceneLoader::image(const JsonReader& json, bool srgb) {
   return load_once(images, {file, srgb}, scene.images, json, [&] {
     Image image = read_image(file, srgb, image_limits);
     image_limits = image_limits.after(image.rgba.size() / 4);
+    file_notes(json, file, image.notes);
     // Textures are reflectances, also where their format holds brighter values.
     bool outside = false;
     for (float& value : image.rgba) {
@@ -78,6 +80,7 @@ Image SceneLoader::radiance_map(const JsonReader& json) {
   } catch (const UserError& error) {
     json.fail(error.what());
   }
+  file_notes(json, file, image.notes);
   std::size_t bad = 0;
   for (std::size_t texel = 0; texel < image.rgba.size(); texel += 4) {
     const auto rgb = image.rgba.begin() + static_cast<std::ptrdiff_t>(texel);
@@ -96,7 +99,28 @@ Image SceneLoader::radiance_map(const JsonReader& json) {
 
 int SceneLoader::mesh(const JsonReader& json) {
   const std::string file = resolve(json, scene);
-  return load_once(meshes, file, scene.meshes, json, [&] { return read_mesh(file); });
+  return load_once(meshes, file, scene.meshes, json, [&] {
+    Mesh mesh = read_mesh(file);
+    file_notes(json, file, mesh.notes);
+    return mesh;
+  });
+}
+
+int SceneLoader::mesh_of_glass(const JsonReader& object, int mesh) {
+  const auto [entry, is_new] = turned_meshes.try_emplace(mesh, mesh);
+  if (!is_new) return entry->second;
+  auto turned = turned_outwards(scene.meshes[static_cast<std::size_t>(mesh)]);
+  if (!turned) return mesh;
+  file_notes(object, turned->file,
+             {"closed parts of it are wound inwards; as glass they are turned outwards"});
+  entry->second = static_cast<int>(scene.meshes.size());
+  scene.meshes.push_back(std::move(*turned));
+  return entry->second;
+}
+
+void SceneLoader::file_notes(const JsonReader& where, const std::string& file,
+                             const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) notice(where, file + ": " + note);
 }
 
 void SceneLoader::notice(const JsonReader& where, const std::string& text) {

@@ -18,14 +18,19 @@ struct SceneLoader {
   std::map<std::string, int> named_materials;          // into scene.materials
   std::map<std::pair<std::string, bool>, int> images;  // resolved path and srgb, into scene.images
   std::map<std::string, int> meshes;                   // resolved path, into scene.meshes
+  std::map<int, int> turned_meshes;                    // of those that are glass: the one to take
   std::set<std::string> said;                          // texts of notices so far
   ImageLimits image_limits;                            // what is left for further images
 
   /// Tells the user `text`, with the place where it came up first.
   void notice(const JsonReader& where, const std::string& text);
+  /// Tells the user what was found in a file.
+  void file_notes(const JsonReader& where, const std::string& file, const std::vector<std::string>& notes);
   /// Index of the image or mesh that `path` names; each file is read once.
   int image(const JsonReader& path, bool srgb);
   int mesh(const JsonReader& path);
+  /// The mesh to take for a closed body of glass: where `mesh` is wound inwards, one that is turned.
+  int mesh_of_glass(const JsonReader& object, int mesh);
   /// The image that `path` names as radiance: linear, as bright as it is, and black where it is none.
   Image radiance_map(const JsonReader& path);
 };

@@ -86,7 +86,17 @@ void read_mesh_keys(const JsonReader& json, Object& object, SceneLoader& loader)
   object.mesh = loader.mesh(json.at("path"));
   // A file without normals is drawn as the flat faces it has, unless smoothing is asked for.
   const Mesh& mesh = loader.scene.meshes[static_cast<std::size_t>(object.mesh)];
-  object.smooth = json.boolean("smooth", !mesh.normals.empty());
+  object.smooth = json.boolean("smooth", mesh.has_normals);
+}
+
+// What the mesh of an object has to be for its material.
+void prepare_mesh(const JsonReader& json, Object& object, SceneLoader& loader) {
+  const MaterialSpec& material = loader.scene.materials[static_cast<std::size_t>(object.material)];
+  if (material.kind == MaterialSpec::Kind::glass) object.mesh = loader.mesh_of_glass(json, object.mesh);
+  Mesh& mesh = loader.scene.meshes[static_cast<std::size_t>(object.mesh)];
+  if (object.smooth && json.has("smooth")) add_missing_normals(mesh);
+  if (material.color_texture >= 0 && mesh.uvs.empty())
+    loader.notice(json, "the mesh has no (u, v): its texture shows the one texel at (0, 0)");
 }
 
 }  // namespace
@@ -135,11 +145,9 @@ void read_object(const JsonReader& json, SceneLoader& loader) {
   else
     json.fail("expected \"material\" or \"texture\", got neither");
 
+  if (object.shape == Shape::mesh) prepare_mesh(json, object, loader);
   const Scene& scene = loader.scene;
   const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
-  if (object.shape == Shape::mesh && material.color_texture >= 0 &&
-      scene.meshes[static_cast<std::size_t>(object.mesh)].uvs.empty())
-    loader.notice(json, "the mesh has no (u, v): its texture shows the one texel at (0, 0)");
   if (object.shape == Shape::plane && max_component(material.emission) > 0 &&
       scene.renderer.integrator == Integrator::sppm)
     json.fail("an infinite light has no power to emit; use a rectangle or the integrator \"pt\"");

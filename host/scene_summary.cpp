@@ -197,7 +197,7 @@ void print_emitters(std::ostream& text, const Scene& scene) {
   std::vector<std::string> lines;
   for (const auto& object : scene.objects) {
     const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
-    if (!(max_component(material.emission) > 0)) continue;
+    if (!is_lit(scene, object)) continue;
     lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : shape_name(object.shape)) +
                     ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
   }

@@ -85,6 +85,23 @@ class WorldBuilder {
     return result;
   }
 
+  /// Far from 0 a float has no digits for the place within a texel. Textures repeat, so that whole repeats
+  /// are taken off there: two at a time, since the cells of a checker alternate.
+  void store_uvs(const Object& object, const TriangleCorner (&corners)[3], float (&uvs)[3][2]) const {
+    constexpr double far = 1024;
+    const int texture = material(object).color_texture;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto value = [&](int c) { return axis == 0 ? corners[c].u : corners[c].v; };
+      double offset = 0;
+      if (texture >= 0) {
+        const double scale =
+            scene_.textures[static_cast<std::size_t>(texture)].scale[static_cast<std::size_t>(axis)];
+        if (std::fabs(value(0) * scale) > far) offset = 2 * std::round(value(0) * scale / 2) / scale;
+      }
+      for (int c = 0; c < 3; ++c) uvs[c][axis] = static_cast<float>(value(c) - offset);
+    }
+  }
+
   /// One world-space triangle. Normals are used where `smooth`.
   void add_triangle(const Object& object, const TriangleCorner (&corners)[3], bool smooth) {
     TreeTriangle triangle{};
@@ -94,15 +111,14 @@ class WorldBuilder {
         triangle.position[c][axis] = static_cast<float>(corners[c].position[axis]);
         normals[c][axis] = static_cast<float>(corners[c].normal[axis]);
       }
-      uvs[c][0] = static_cast<float>(corners[c].u);
-      uvs[c][1] = static_cast<float>(corners[c].v);
     }
+    store_uvs(object, corners, uvs);
     world_.tree.triangles.push_back(triangle);
     world_.attributes.push_back(triangle_attributes(materials_[index_], smooth ? normals : nullptr, uvs));
     if (!emissive(object)) return;
+    if (!(triangle_area(corners) > 0)) return;
     const Vec3 e1 = corners[1].position - corners[0].position, e2 = corners[2].position - corners[0].position;
     const double area = 0.5 * length(cross(e1, e2));
-    if (!(area > 0)) return;
     Emitter light = emitter(object, EMITTER_TRIANGLE, area);
     light.a = to_float4(corners[0].position);
     light.b = to_float4(e1);
@@ -162,14 +178,15 @@ class WorldBuilder {
       }
       default: {
         shape.type = SHAPE_BEZIER;
-        shape.degree = static_cast<uint>(object.points.size() - 1);
+        const auto points = near_points(object, transform);
+        shape.degree = static_cast<uint>(points.size() - 1);
         shape.curve = static_cast<uint>(world_.curves.size());
-        const auto data = curve_data(object.points);
+        const auto data = curve_data(points);
         world_.curves.insert(world_.curves.end(), data.begin(), data.end());
-        const CurveBounds local = curve_bounds(object.points);
+        const CurveBounds local = curve_bounds(points);
         bounds = transformed_bounds(local.low, local.high, transform);
         if (emissive(object)) {
-          const auto table = curve_area_table(object.points, EMITTER_AREA_STEPS);
+          const auto table = curve_area_table(points, EMITTER_AREA_STEPS);
           shape.area_table =
               static_cast<uint>(world_.curves.size()) + 2;  // past the number of steps and the area
           world_.curves.insert(world_.curves.end(), table.begin(), table.end());
@@ -189,6 +206,24 @@ class WorldBuilder {
       world_.tree.shapes.push_back({bounds, static_cast<uint>(world_.shapes.size())});
     if (area > 0 && emissive(object)) world_.emitters.push_back(light);
     world_.shapes.push_back(shape);
+  }
+
+  /// The control points of a revolved curve. Where they lie far along the axis, they are brought near the
+  /// local origin, and the transform takes them back, so that floats keep the curve's digits.
+  static std::vector<std::array<double, 2>> near_points(const Object& object, Transform& transform) {
+    constexpr double far = 64;  // times the curve's own size
+    auto points = object.points;
+    double low = points[0][1], high = low, radius = 0;
+    for (const auto& [r, height] : points) {
+      low = std::min(low, height);
+      high = std::max(high, height);
+      radius = std::max(radius, std::fabs(r));
+    }
+    const double middle = 0.5 * (low + high);
+    if (std::fabs(middle) <= far * std::max(radius, high - low)) return points;
+    for (auto& point : points) point[1] -= middle;
+    transform = Transform::shift({0, middle, 0}).followed_by(transform);
+    return points;
   }
 
   static Bounds make_bounds(Vec3 low, Vec3 high) {

@@ -195,7 +195,9 @@ TriangleMesh mesh_of_file(const std::string& file) {
   TriangleMesh result;
   for (const auto& corners : mesh.position_index) {
     TreeTriangle triangle;
-    for (int v = 0; v < 3; ++v) std::copy_n(mesh.positions[corners[v]].data(), 3, triangle.position[v]);
+    for (int v = 0; v < 3; ++v)
+      for (int axis = 0; axis < 3; ++axis)
+        triangle.position[v][axis] = static_cast<float>(mesh.positions[corners[v]][axis]);
     result.push_back(triangle);
   }
   return result;

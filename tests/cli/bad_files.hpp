@@ -46,8 +46,8 @@ inline constexpr BadScene bad_files[] = {
      "to here"},
     {"index too large.obj", "\"type\": \"rectangle\"",
      "\"type\": \"mesh\", \"path\": \"index_too_large.obj\"",
-     "scene.json:7: /objects/0/path: index_too_large.obj:4: vertex index 4 is out of range; 3 are defined up "
-     "to here"},
+     "scene.json:7: /objects/0/path: index_too_large.obj:4: vertex index 4 is out of range; 3 are defined in "
+     "the file"},
     {"index too large.ply", "\"type\": \"rectangle\"",
      "\"type\": \"mesh\", \"path\": \"index_too_large.ply\"",
      "scene.json:7: /objects/0/path: index_too_large.ply:13: face 0: vertex index 3 is out of range; there "

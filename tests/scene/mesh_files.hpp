@@ -26,7 +26,10 @@ inline std::string message_for(const std::string& name, const std::string& bytes
   return user_error_of([&] { read_mesh(file); }, file);
 }
 
-inline Vec3 to_vec(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+template <typename Real>
+Vec3 to_vec(const std::array<Real, 3>& p) {
+  return {p[0], p[1], p[2]};
+}
 
 /// The sum of the triangles' vector areas, and the sum of their areas.
 inline std::pair<Vec3, double> areas(const Mesh& mesh) {

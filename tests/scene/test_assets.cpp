@@ -64,9 +64,7 @@ std::set<std::string> glass_meshes() {
 
 using Vector = std::array<double, 3>;
 
-Vector difference(const std::array<float, 3>& a, const std::array<float, 3>& b) {
-  return {double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]};
-}
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -79,7 +77,7 @@ double dot(const A& a, const B& b) {
 
 // How many directed edges lack exactly one partner in the other direction; vertices at one place are one.
 std::size_t open_edges(const Mesh& mesh) {
-  std::map<std::array<float, 3>, std::size_t> places;
+  std::map<std::array<double, 3>, std::size_t> places;
   const auto place = [&](std::uint32_t i) {
     return places.emplace(mesh.positions[i], places.size()).first->second;
   };

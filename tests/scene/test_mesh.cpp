@@ -44,11 +44,11 @@ TEST_CASE("Polygons are cut inside their outline, with their winding") {
     const std::size_t count = outlines[o].corners.size();
     for (std::size_t first = 0; first < count; ++first) {
       CAPTURE(o, first);
-      std::vector<std::array<float, 3>> corners;
+      std::vector<std::array<double, 3>> corners;
       for (std::size_t i = 0; i < count; ++i) {
         const auto& [x, y] = outlines[o].corners[(first + i) % count];
         const Vec3 p = tilt.point({x, y, 0}) + Vec3{10, 20, 30};
-        corners.push_back({float(p.x), float(p.y), float(p.z)});
+        corners.push_back({p.x, p.y, p.z});
       }
       std::vector<Triangle> triangles;
       triangulate_polygon(corners, triangles);
@@ -70,13 +70,13 @@ TEST_CASE("Polygons without a proper inside end, and keep their number of triang
   std::vector<Triangle> triangles;
   triangulate_polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, triangles);  // a bow tie
   CHECK(triangles.size() == 2);
-  triangulate_polygon(std::vector<std::array<float, 3>>(7, {1, 2, 3}), triangles);  // one point
+  triangulate_polygon(std::vector<std::array<double, 3>>(7, {1, 2, 3}), triangles);  // one point
   CHECK(triangles.size() == 5);
   triangulate_polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}}, triangles);  // a line
   CHECK(triangles.size() == 3);
-  std::vector<std::array<float, 3>> circle;
+  std::vector<std::array<double, 3>> circle;
   for (int i = 0; i < 100000; ++i)
-    circle.push_back({float(std::cos(i * 6.2831853e-5)), float(std::sin(i * 6.2831853e-5)), 0});
+    circle.push_back({std::cos(i * 6.2831853e-5), std::sin(i * 6.2831853e-5), 0});
   triangulate_polygon(circle, triangles);
   CHECK(triangles.size() == 99998);
 }

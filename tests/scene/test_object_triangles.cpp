@@ -38,7 +38,7 @@ struct OneMesh {
     scene.objects[0].shape = Object::Shape::mesh;
     scene.objects[0].mesh = 0;
   }
-  bool has_needles(const std::vector<std::array<float, 3>>& corners) {
+  bool has_needles(const std::vector<std::array<double, 3>>& corners) {
     scene.meshes[0].positions = corners;
     return causticl::has_needles(scene, scene.objects[0]);
   }
@@ -65,7 +65,7 @@ TEST_CASE(
     const Vec3 corner{random.uniform(-away, away), random.uniform(-away, away), random.uniform(-away, away)};
     const Vec3 motion{random.uniform(-away, away), random.uniform(-away, away), random.uniform(-away, away)};
     const Vec3 all[3] = {corner, corner + in_plane(size, 0), corner + in_plane(size * longer, angle)};
-    std::vector<std::array<float, 3>> positions;
+    std::vector<std::array<double, 3>> positions;
     for (const Vec3& p : all)
       positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     mesh.scene.objects[0].motion = motion;
@@ -76,7 +76,7 @@ TEST_CASE(
     const double time = random.uniform();
     for (const auto& p : positions)
       for (int axis = 0; axis < 3; ++axis) {
-        still.push_back(p[axis]);
+        still.push_back(static_cast<float>(p[axis]));
         moved.push_back(static_cast<float>(p[axis] + time * motion[axis]));
       }
   }

@@ -6,6 +6,7 @@
 #include "effects.hpp"
 #include "image_formats.hpp"
 #include "scene_folder.hpp"
+#include "world.hpp"
 
 namespace causticl {
 namespace {
@@ -44,6 +45,34 @@ TEST_CASE("point, spot and directional lights") {
   CHECK(notices_of(
             with_lights(folder, R"({"type": "point", "position": [1, 2, 3], "intensity": [0, 0, 0]})")) ==
         "1: /: no light: the image will be black\n");
+}
+
+TEST_CASE("surfaces that should emit light, but without an area give none, are named") {
+  const SceneFolder folder;
+  folder.folder.write("flat_lamp.obj", "v -1 3 -1\nv 1 3 -1\nv 1 3 1\nf 1 1 1\nf 1 2 2\n");
+  folder.folder.write("line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
+  folder.folder.write("tiny.obj", "v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n");
+  folder.folder.write("half.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nf 1 2 3\n");
+  const auto emitter = [](const std::string& file, const std::string& emission = "[5, 5, 5]") {
+    return R"({"type": "mesh", "path": ")" + file + R"(", "material": {"type": "diffuse", "emission": )" +
+           emission + "}}";
+  };
+  const std::string dark = "no light: the image will be black";
+  for (const std::string file : {"flat_lamp.obj", "line.obj", "tiny.obj"}) {
+    CAPTURE(file);
+    const Scene scene = folder.objects(floor_object + ", " + emitter(file));
+    CHECK(notices_of(scene) ==
+          "1: /: " + dark + "; /objects/1 should emit light, but without an area gives none\n");
+    CHECK(!has_light(scene));
+    CHECK(build_world(scene).emitters.empty());
+    const Scene lit = folder.objects(emitter(file) + ", " + emitter(file) + ", " + lamp);
+    CHECK(notices_of(lit) ==
+          "1: /: /objects/0 and others should emit light, but without an area gives none\n");
+    CHECK(has_light(lit));
+    CHECK(build_world(lit).emitters.size() == 1);
+  }
+  CHECK(notices_of(folder.objects(emitter("half.obj"))) == "");
+  CHECK(notices_of(folder.objects(emitter("half.obj", "[1e-60, 0, 0]"))) == "1: /: " + dark + "\n");
 }
 
 TEST_CASE("a disk among the lights is an object that emits on the side of its normal") {

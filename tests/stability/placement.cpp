@@ -31,7 +31,7 @@ Scene room(double unit, Vec3 shift, Integrator integrator) {
 
   Mesh mesh = torus(12, 8, 0.5, 0.1875);
   for (auto& p : mesh.positions)
-    for (float& x : p) x = std::round(x * 64) / 64;
+    for (double& x : p) x = std::round(x * 64) / 64;
   scene.meshes = {mesh};
   Object box = make_object(Object::Shape::box, place, 0);
   box.size = {4, 4, 4};
