@@ -72,7 +72,7 @@ bool is_main(std::string layer) {
   std::string names;
   std::size_t count = 0;
   for (auto i = list.begin(); i != list.end(); ++i, ++count)
-    if (count < 8) names += " " + quoted(i.name());
+    if (count < 8) names.append(" ").append(quoted(i.name()));
   if (count > 8) names += " and " + std::to_string(count - 8) + " more";
   throw std::runtime_error("it has no channels R, G, B or Y, nor one layer of them, but:" + names);
 }

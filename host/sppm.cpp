@@ -135,8 +135,8 @@ void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) 
   device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
 }
 
-/// Lists the walls for balls of the first radius, since no later radius is larger. Where something moves, each pass
-/// lists them anew.
+/// Lists the walls for balls of the first radius, since no later radius is larger. Where something moves,
+/// each pass lists them anew.
 void Sppm::place_walls(std::uint32_t pass) {
   if (!walled_ || (walls_placed_ && !has_motion(scene_))) return;
   walls_placed_ = true;

@@ -51,7 +51,7 @@ class Sppm : public PassIntegrator {
   PhotonAim aim_;
   PhotonMap photon_map_;
   bool with_photons_;
-  bool walled_;       // whether the scene calls for walls
+  bool walled_;                                // whether the scene calls for walls
   std::optional<std::uint32_t> started_pass_;  // whose photons are in the map
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;

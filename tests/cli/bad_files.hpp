@@ -85,7 +85,8 @@ inline constexpr BadScene bad_files[] = {
     {"garbage.jpg", "[0.8, 0.8, 0.8]", "{\"type\": \"image\", \"path\": \"garbage.jpg\"}",
      "scene.json:5: /materials/white/color/path: garbage.jpg: cannot be decoded: unknown marker"},
     {"huge size.png", "[0.8, 0.8, 0.8]", "{\"type\": \"image\", \"path\": \"huge_size.png\"}",
-     "scene.json:5: /materials/white/color/path: huge_size.png: cannot be decoded: 2147483647x2147483647 pixels "
+     "scene.json:5: /materials/white/color/path: huge_size.png: cannot be decoded: 2147483647x2147483647 "
+     "pixels "
      "are too many; at most 2^28 are read"},
     {"wrong magic.png", "[0.8, 0.8, 0.8]", "{\"type\": \"image\", \"path\": \"wrong_magic.png\"}",
      "scene.json:5: /materials/white/color/path: wrong_magic.png: cannot be decoded: expected PNG, JPEG, "

@@ -101,8 +101,7 @@ TEST_CASE("above its limit a store forgets what was not used for longest, and wh
     age(store.file_of(std::to_string(i)), 9 - i);
   }
   CHECK(store.load("0", damage));  // the oldest is now the one used last
-  const std::string old_half = folder.write(".entry-1", "half"),
-                    new_half = folder.write(".entry-2", "half"),
+  const std::string old_half = folder.write(".entry-1", "half"), new_half = folder.write(".entry-2", "half"),
                     another = folder.write("b.tmp", "of another program");
   age(old_half, 2);
   age(another, 2);

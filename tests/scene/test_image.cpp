@@ -141,7 +141,8 @@ TEST_CASE("Damaged and foreign images have one clear line each") {
   zero.replace(16, 8, std::string(8, '\0'));
   huge.replace(16, 8, std::string("\0\0\xff\xff\0\0\xff\xff", 8));
   CHECK(fault("a.png", zero) == "a.png: cannot be decoded: 0-pixel image");
-  CHECK(fault("a.png", huge) == "a.png: cannot be decoded: 65535x65535 pixels are too many; at most 2^28 are read");
+  CHECK(fault("a.png", huge) ==
+        "a.png: cannot be decoded: 65535x65535 pixels are too many; at most 2^28 are read");
   // A TGA without pixels.
   CHECK(fault("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\0\0\0\0\x18\0", 18)).find("a.tga: cannot be") ==
         0);

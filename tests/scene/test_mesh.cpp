@@ -18,8 +18,7 @@ TEST_CASE("A mesh must be a file of a known kind") {
   CHECK(fault("folder.ply") == "folder.ply: is a folder; expected a mesh");
   folder.write("a.stl", "solid");
   CHECK(fault("a.stl") == "a.stl: is no mesh by its name; expected the extension .obj or .ply");
-  CHECK(user_error_of([] { read_mesh("/dev/null"); }) ==
-        "/dev/null: is not a regular file; expected a mesh");
+  CHECK(user_error_of([] { read_mesh("/dev/null"); }) == "/dev/null: is not a regular file; expected a mesh");
   folder.write("UPPER.OBJ", square + "f 1 2 3 4");
   CHECK(fault("UPPER.OBJ") == "");
 }
