@@ -2,19 +2,21 @@
 #include "distant.cl"
 #include "scene.cl"
 
-// Of the photons, those that start beyond the disc: twelve of the 32 columns of cells by which photons are aimed.
-#define HORIZON_SHARE 0.375f
+// Of the photons, those that start beyond the disc: sixteen of the 32 columns of cells by which photons are aimed.
+#define HORIZON_SHARE 0.5f
 
 // A point of the plane across the light, in radii of the disc, of numbers from the unit square; *share is the flux of its
-// photons over that of a disc alone.
-INLINE real2 horizon_place(real2 u, real *share) {
+// photons over that of a disc alone. Beyond the disc the density falls with the square of the distance up to `reach`, where
+// all planes have come nearest to the disc, and with its cube from there on.
+INLINE real2 horizon_place(real2 u, real reach, real *share) {
   const real beyond = HORIZON_SHARE;
   if (u.x >= beyond) {
     *share = 1 / (1 - beyond);
     return disc_uniform((real2)((u.x - beyond) / (1 - beyond), u.y));
   }
-  real radius = 1 / (1 - u.x / beyond);
-  *share = 2 * radius * radius * radius / beyond;
+  real octaves = log(reach), whole = 1 + octaves, t = u.x / beyond * whole;
+  real radius = t < octaves ? exp(t) : reach / fmax(1 - (t - octaves), (real)1e-6f);
+  *share = 2 * whole * radius * radius * fmax(radius / reach, (real)1) / beyond;
   return radius * (real2)(cospi(2 * u.y), sinpi(2 * u.y));
 }
 
@@ -24,7 +26,7 @@ INLINE Ray horizon_ray(const Scene *scene, global const Emitter *emitter, real3 
   real3 tangent, bitangent;
   orthonormal_basis(direction, &tangent, &bitangent);
   real radius = emitter->a.w;
-  real2 d = radius * horizon_place(u, share);
+  real2 d = radius * horizon_place(u, fmax((real)emitter->c.x, (real)1), share);
   real3 point = convert_real3(emitter->a.xyz) + d.x * tangent + d.y * bitangent;
   real start = dot(d, d) <= radius * radius ? -radius : (real)INFINITY;
   for (uint i = 0; i < scene->geometry.plane_count; ++i) {

@@ -35,35 +35,47 @@ float4 scene_sphere(const TreeInput& tree) {
   return to_float4(centre, 1.0001 * length(0.5 * (high - low)) + 1e-6 * largest);
 }
 
+/// Where light from beyond the scene has to go.
+struct LitRegion {
+  float4 sphere;    // centre and radius
+  float reach = 1;  // how far the farthest infinite plane is from its centre, in radii, 1 at least
+};
+
 /// The sphere that light from beyond the scene has to cover, all that is bounded in its midst. What infinite
 /// planes are outside of it is far to kernels (cl/horizon.cl), which read it from the records of planes.
 /// Where nothing is bounded it lies about the camera, as large as its distance to the next plane.
-float4 light_sphere(const Scene& scene, World& world) {
-  if (world.plane_count == 0) return scene_sphere(world.tree);
-  float4 sphere{};
+LitRegion lit_region(const Scene& scene, World& world) {
+  LitRegion region{scene_sphere(world.tree)};
+  if (world.plane_count == 0) return region;
+  const auto distance_to = [&](uint i, Vec3 point) {
+    const float4* rows = world.shapes[i].to_world;
+    const float4& row = world.shapes[i].to_local[2];
+    return std::fabs(
+        dot(normalize(Vec3{row.x, row.y, row.z}), point - Vec3{rows[0].w, rows[1].w, rows[2].w}));
+  };
   if (world.tree.triangles.empty() && world.tree.shapes.empty()) {
     double radius = INFINITY;
     for (uint i = 0; i < world.plane_count; ++i) {
-      const Shape& plane = world.shapes[i];
-      const float4* rows = plane.to_world;
-      const Vec3 n{plane.to_local[2].x, plane.to_local[2].y, plane.to_local[2].z};
-      const double distance =
-          std::fabs(dot(normalize(n), scene.camera.origin - Vec3{rows[0].w, rows[1].w, rows[2].w}));
+      const double distance = distance_to(i, scene.camera.origin);
       if (distance > 0) radius = std::min(radius, distance);
     }
-    sphere = to_float4(scene.camera.origin, std::isfinite(radius) ? radius : 1);
-  } else {
-    sphere = scene_sphere(world.tree);
+    region.sphere = to_float4(scene.camera.origin, std::isfinite(radius) ? radius : 1);
   }
   constexpr float around = 1.5f;  // what lies just beside bounded things gets as much light as these
-  sphere.w *= around;
-  for (uint i = 0; i < world.plane_count; ++i) world.shapes[i].sphere = sphere;
-  return sphere;
+  constexpr double farthest = 1000;
+  region.sphere.w *= around;
+  const Vec3 centre{region.sphere.x, region.sphere.y, region.sphere.z};
+  for (uint i = 0; i < world.plane_count; ++i) {
+    world.shapes[i].sphere = region.sphere;
+    const double reach = distance_to(i, centre) / region.sphere.w;
+    region.reach = static_cast<float>(std::clamp<double>(reach, region.reach, farthest));
+  }
+  return region;
 }
 
 double square(float x) { return static_cast<double>(x) * x; }
 
-Emitter delta_emitter(const DeltaLight& light, float4 sphere) {
+Emitter delta_emitter(const DeltaLight& light, const LitRegion& region) {
   Emitter result{};
   switch (light.kind) {
     case DeltaLight::Kind::point:
@@ -85,21 +97,23 @@ Emitter delta_emitter(const DeltaLight& light, float4 sphere) {
     }
     case DeltaLight::Kind::directional:
       result.type = EMITTER_DIRECTIONAL;
-      result.a = sphere;
+      result.a = region.sphere;
       result.b = to_float4(light.direction);
-      result.radiance = to_float4(light.intensity, square(sphere.w));
+      result.c.x = region.reach;
+      result.radiance = to_float4(light.intensity, square(region.sphere.w));
       break;
   }
   return result;
 }
 
-Emitter environment_emitter(const Environment& environment, float4 sphere) {
+Emitter environment_emitter(const Environment& environment, const LitRegion& region) {
   Emitter result{};
   const double integral = environment_integral(environment);
   result.type = EMITTER_ENVIRONMENT;
-  result.a = sphere;
+  result.a = region.sphere;
+  result.c.x = region.reach;
   result.b = to_float4({environment.rotation / 360, 0, 0});
-  result.radiance = to_float4({integral, integral, integral}, square(sphere.w));
+  result.radiance = to_float4({integral, integral, integral}, square(region.sphere.w));
   result.shape = static_cast<uint>(environment.map.width);
   result.first_area = static_cast<uint>(environment.map.height);
   return result;
@@ -131,13 +145,13 @@ std::uint64_t share_numbers(World& world) {
 void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world) {
   const bool environment = scene.environment && is_lit(*scene.environment);
   if (environment || !scene.lights.empty()) {
-    const float4 sphere = light_sphere(scene, world);
+    const LitRegion region = lit_region(scene, world);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       if (!is_lit(scene.lights[i])) continue;
-      world.emitters.push_back(delta_emitter(scene.lights[i], sphere));
+      world.emitters.push_back(delta_emitter(scene.lights[i], region));
       world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
     }
-    if (environment) world.emitters.push_back(environment_emitter(*scene.environment, sphere));
+    if (environment) world.emitters.push_back(environment_emitter(*scene.environment, region));
   }
   const std::uint64_t last = share_numbers(world);
   if (environment) world.environment = environment_table(*scene.environment, last);

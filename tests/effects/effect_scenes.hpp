@@ -52,6 +52,9 @@ inline std::vector<EffectScene> effect_scenes() {
     return effect_scene(R"({"type": "box", "size": [2, )" + height +
                         R"(, 2], "material": {"type": "diffuse"}})");
   };
+  const std::string plane = R"({"type": "plane", "material": {"type": "diffuse"}})";
+  const std::string sun = R"({"type": "directional", "direction": [0, -1, 0], "irradiance": [1, 1, 1]})";
+  const std::string bulb = R"({"type": "point", "position": [1, 2, 3], "intensity": [1, 1, 1]})";
   const std::string lamp = R"({"type": "diffuse", "emission": [20, 20, 20]})";
   const std::string balls =
       R"({"camera": {"position": [0, 2, 7], "target": [0, 1, 0], "fov": 40}, "objects": [)";
@@ -106,6 +109,11 @@ inline std::vector<EffectScene> effect_scenes() {
        effect_scene(ball_of(R"({"type": "mirror"})")), "type of /objects/2/material"},
       {"smooth", with_mesh(true), with_mesh(false), "normals of mesh /objects/2"},
       {"needles", with_box("0.1"), with_box("1"), "triangles of box /objects/2"},
+      {"walls", plain,
+       effect_scene(ball_of(diffuse).replace(ball_of(diffuse).find("\"y\": 0.8"), 8, "\"y\": 40")),
+       "surfaces about /objects/2"},
+      {"horizon", "{\"lights\": [" + sun + "], " + effect_scene(plane).substr(1),
+       "{\"lights\": [" + bulb + "], " + effect_scene(plane).substr(1), "plane /objects/2"},
   };
 }
 

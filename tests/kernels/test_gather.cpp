@@ -260,6 +260,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
   const SortedPhotons map = sort_photons(test_device(), program(), photons, grids);
   auto in = test_device().upload(visible, "visible points");
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
+  auto no_walls = test_device().upload(std::vector<WallGrid>{{}}, "walls");
 
   for (const float shared_radius2 : {0.0f, 0.0144f}) {
     CAPTURE(shared_radius2);
@@ -270,7 +271,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
     test_device().clear(film, (first + pixels) * sizeof(FilmPixel));
     test_device().clear(counter, sizeof(Counters));
     run_kernel(program(), "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter, grids,
-               params);
+               params, no_walls);
     const auto out = test_device().download<FilmPixel>(film, first + pixels);
     const auto after = test_device().download<SppmPixel>(state, first + pixels);
     CHECK(test_device().download<Counters>(counter, 1)[0].non_finite == 1);

@@ -186,7 +186,8 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   auto film = test_device().buffer(film_bytes, "film");
   test_device().clear(film, film_bytes);
   run_kernel(program, "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter,
-             one_grid(grid, photons.size()), params);
+             one_grid(grid, photons.size()), params,
+             test_device().upload(std::vector<WallGrid>{{}}, "walls"));
   const auto sums =
       test_device().download<FilmLayers>(film, first + pixels, (first + pixels) * sizeof(FilmPixel));
   const auto whole = test_device().download<FilmPixel>(film, first + pixels);

@@ -1,4 +1,6 @@
 // Hard case 27: what stands between a photon and a visible point.
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "random_check.hpp"
@@ -31,11 +33,15 @@ kernel void parted(global const Pair *in, global uint *out, uint count) {
 )";
 
 struct Pair {
-  Wall wall;
-  float4 point, point_normal, photon, photon_normal;
+  std::array<float, sizeof(Wall) / sizeof(float)> wall;
+  std::array<float, 4> point, point_normal, photon, photon_normal;
 };
 
 Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
+Vec3 vec(const std::array<float, 4>& v) { return {v[0], v[1], v[2]}; }
+std::array<float, 4> words(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
 float4 packed(Vec3 v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
@@ -71,7 +77,8 @@ bool parted(const Pair& in, double margin, double touch) {
   const double distance = length(y - x);
   const double rounding = 1e-6 * max_component({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)});
   const double low = 0.01 * distance + 4 * rounding, high = 0.35 * distance + low;
-  const auto crossed = [&](Vec3 a, Vec3 b) { return crosses(in.wall, a, b, margin, touch); };
+  const Wall wall = std::bit_cast<Wall>(in.wall);
+  const auto crossed = [&](Vec3 a, Vec3 b) { return crosses(wall, a, b, margin, touch); };
   if (!crossed(x + low * nx, y + low * ny)) return false;
   return crossed(x + high * nx, y + high * ny) || crossed(x + high * nx, x + low * nx) ||
          crossed(y + high * ny, y + low * ny);
@@ -99,28 +106,25 @@ Wall any_wall(InputRandom& random, Vec3 place, double size) {
 Pair any_pair(InputRandom& random, std::uint64_t index) {
   const double size = random.scale(-2, 2), far = index % 3 ? size : size * random.scale(0, 3);
   const Vec3 place = far * random.direction();
-  Pair pair{any_wall(random, place, size), {}, {}, {}, {}};
-  const Vec3 n = vec(pair.wall.normal), origin = vec(pair.wall.origin);
+  const Wall wall = any_wall(random, place, size);
+  const Vec3 n = vec(wall.normal), origin = vec(wall.origin);
   const double reach = size * random.scale(-2.5, 0);
   Vec3 x = place + size * random.uniform(0, 1.5) * random.direction(), y = x + reach * random.direction();
   Vec3 nx = random.direction(), ny = normalize(nx + 0.5 * random.direction());
-  const bool sphere = static_cast<uint>(pair.wall.origin.w) == WALL_SPHERE;
+  const bool sphere = static_cast<uint>(wall.origin.w) == WALL_SPHERE;
   if (sphere && index % 2) {
     nx = random.direction();
     ny = normalize(nx + random.uniform(0, 0.8) * random.direction());
-    x = origin + pair.wall.normal.w * nx;
-    y = origin + pair.wall.normal.w * ny;
+    x = origin + wall.normal.w * nx;
+    y = origin + wall.normal.w * ny;
   } else if (!sphere && index % 2) {
     nx = ny = normalize(cross(n, random.direction()));
     const Vec3 along = cross(n, nx);
     y = origin + size * random.uniform(-0.2, 1) * along + size * random.uniform(-0.2, 1) * nx;
     x = y + reach * n + reach * random.uniform(-1, 1) * along;
   }
-  pair.point = packed(x);
-  pair.photon = packed(y);
-  pair.point_normal = packed(nx);
-  pair.photon_normal = packed(ny);
-  return pair;
+  return {std::bit_cast<std::array<float, sizeof(Wall) / sizeof(float)>>(wall), words(x), words(nx), words(y),
+          words(ny)};
 }
 
 /// The verdict of the oracle wherever the wall is crossed or passed by for certain; a photon that landed in
