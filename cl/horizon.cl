@@ -10,9 +10,9 @@
 //   them. So each path of light counts once: where the camera path has come past the last such way, seen from the camera.
 #include "light.cl"
 
-// Whether what is met at `position` is far. The host puts the sphere into the records of planes.
+// Whether what is met at `position` is far.
 INLINE bool is_far(const Geometry *g, Hit hit, real3 position) {
-  if (!HAS(EFFECT_HORIZON) || !(hit.primitive & HIT_SHAPE)) return false;
+  if (!has_horizon(g) || !(hit.primitive & HIT_SHAPE)) return false;
   global const Shape *shape = g->shapes + (hit.primitive & ~HIT_SHAPE);
   return shape->type == SHAPE_PLANE && length(position - convert_real3(shape->sphere.xyz)) > shape->sphere.w;
 }

@@ -2,6 +2,11 @@
 #include "distant.cl"
 #include "scene.cl"
 
+// Whether the scene has both: the host puts the sphere into the records of its planes, which else hold none.
+INLINE bool has_horizon(const Geometry *g) {
+  return HAS(EFFECT_HORIZON) && g->plane_count > 0 && g->shapes[0].sphere.w > 0;
+}
+
 // Of the photons, those that start beyond the disc: sixteen of the 32 columns of cells by which photons are aimed.
 #define HORIZON_SHARE 0.5f
 

@@ -220,7 +220,7 @@ INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, r
   Ray ray;
   ray.direction = -environment_direction(emitter, position, &sine);
   real pdf = environment_pdf(value.density, sine), share = 1;
-  if (HAS(EFFECT_HORIZON))
+  if (has_horizon(&scene->geometry))
     ray = horizon_ray(scene, emitter, ray.direction, place, &share);
   else
     ray.origin = distant_origin(emitter, ray.direction, place);
@@ -247,7 +247,7 @@ INLINE Ray photon_emit_from(const Scene *scene, uint chosen, real4 choice, real 
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
     real share;
     Ray leaving = delta_light_ray(emitter, (real2)(u, v), &share);
-    if (HAS(EFFECT_HORIZON) && emitter->type == EMITTER_DIRECTIONAL)
+    if (emitter->type == EMITTER_DIRECTIONAL && has_horizon(&scene->geometry))
       leaving = horizon_ray(scene, emitter, leaving.direction, (real2)(u, v), &share);
     *flux = radiance * (share / max_component(radiance));
     return leaving;

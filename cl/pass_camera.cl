@@ -125,7 +125,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       if (!(max_component(weight) > 0)) break;
       bool far = is_far(&scene->geometry, hit, surface.position);
       bool counts = !beyond || (far && passes_sphere(&scene->geometry, surface.position, -ray.direction));
-      bool several = HAS(EFFECT_HORIZON) && params->plane_count > 1;
+      bool several = params->plane_count > 1 && has_horizon(&scene->geometry);
       bool goes_on = several && (!counts || random_at(stream, depth, DIM_CHANNEL).y < (real)0.5f);
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | receiver_mark(history);

@@ -134,7 +134,7 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   flux = product3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
   // What a far surface has scattered may be more than was emitted, and is to become less.
-  if (HAS(EFFECT_HORIZON)) before = fmin(before, (real)1);
+  if (has_horizon(&scene->geometry)) before = fmin(before, (real)1);
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;

@@ -46,7 +46,7 @@ struct LitRegion {
 /// Where nothing is bounded it lies about the camera, as large as its distance to the next plane.
 LitRegion lit_region(const Scene& scene, World& world) {
   LitRegion region{scene_sphere(world.tree)};
-  if (world.plane_count == 0) return region;
+  if (world.plane_count == 0 || !has_infinite_light(scene)) return region;
   const auto distance_to = [&](uint i, Vec3 point) {
     const float4* rows = world.shapes[i].to_world;
     const float4& row = world.shapes[i].to_local[2];
