@@ -107,9 +107,9 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
 
   bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
   bool black = is_black(&bsdf, material);
-  // With shadow rays the light that arrives straight from an emitter is counted there.
-  bool far = is_far(&scene->geometry, hit, surface.position);
-  bool counted = depth == 0 && (shadow_rays || (far && lit_from_beyond(scene, random4(stream, DIM_EMITTER))));
+  // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
+  bool counted = shadow_rays && depth == 0, far = is_far(&scene->geometry, hit, surface.position);
+  if (far && depth == 0) counted = counted || lit_from_beyond(scene, random4(stream, DIM_EMITTER));
   bool landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
