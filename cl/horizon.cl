@@ -10,6 +10,9 @@
 //   them. So each path of light counts once: where the camera path has come past the last such way, seen from the camera.
 #include "light.cl"
 
+// The mark of photons of sun and sky until they meet something: PhotonState.mark.
+#define FROM_BEYOND 0x20000000u
+
 // Whether what is met at `position` is far.
 INLINE bool is_far(const Geometry *g, Hit hit, real3 position) {
   if (!has_horizon(g) || !(hit.primitive & HIT_SHAPE)) return false;

@@ -74,6 +74,7 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
     PhotonState photon;
     photon.ray = ray, photon.flux = flux;
     photon.history = HISTORY_STRAIGHT, photon.mark = 0, photon.interior = interior_none();
+    if (HAS(EFFECT_HORIZON) && scene.emitters[emitter].type >= EMITTER_DIRECTIONAL) photon.mark = FROM_BEYOND;
     if (HAS(EFFECT_NESTED)) {
       uint faults = 0;
       photon.media = media_at_emitter(&scene, emitter, ray, &faults);

@@ -109,7 +109,8 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
   bool counted = shadow_rays && depth == 0, far = is_far(&scene->geometry, hit, surface.position);
-  if (far && depth == 0) counted = counted || lit_from_beyond(scene, random4(stream, DIM_EMITTER));
+  if (far && depth == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
+  if (HAS(EFFECT_HORIZON)) photon->mark &= ~FROM_BEYOND;
   bool landed_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
   if (landed_here) {
