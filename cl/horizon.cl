@@ -1,7 +1,7 @@
 // Light from beyond the scene where infinite planes reach to the horizon.
 //
-// Photons start on a disc before a sphere around all that is bounded, and some of them beyond it: their density falls with
-// the third power of the distance, as what a far part of a plane sends to the sphere does. Surfaces beyond the sphere,
+// Photons start on a disc before a sphere around all that is bounded, and half of them beyond it: their density falls with
+// the distance, in the end with its third power, as what a far part of a plane sends to the sphere does. Surfaces beyond the sphere,
 // which are planes, are called far. A photon that a far diffuse surface scatters goes on towards the sphere, so that its
 // flux, which grew as the density fell, becomes that of others again. So photons carry all light but that which
 // - comes to a far surface straight from beyond the scene: visible points there take it by a shadow ray;
