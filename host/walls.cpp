@@ -142,9 +142,13 @@ class WallGridBuilder {
       box = box_of(at % cells_[0], at / cells_[0] % cells_[1], at / cells_[0] / cells_[1]);
       box.half = box.half + Vec3{1, 1, 1} * reach_;
     }
+    const auto some_part = [&](std::uint32_t i) {
+      return primitives_[i].blocks && parts(primitives_[i], near, box);
+    };
+    if (near.size() <= most_pairs && std::none_of(near.begin(), near.end(), some_part)) return walls;
+    // A path over one wall may be barred by another that parts nothing by itself, as a low ceiling.
     for (const std::uint32_t i : near)
-      if (primitives_[i].blocks && (near.size() > most_pairs || parts(primitives_[i], near, box)))
-        walls.push_back(i);
+      if (primitives_[i].blocks) walls.push_back(i);
     return walls;
   }
 
