@@ -1,9 +1,9 @@
 // Light from beyond the scene where infinite planes reach to the horizon.
 //
-// Photons start on a disc before a sphere around all that is bounded, and half of them beyond it: their density falls with
-// the distance, in the end with its third power, as what a far part of a plane sends to the sphere does. Surfaces beyond the sphere,
-// which are planes, are called far. A photon that a far diffuse surface scatters goes on towards the sphere, so that its
-// flux, which grew as the density fell, becomes that of others again. So photons carry all light but that which
+// Photons start on a disc before a sphere around all that is bounded, and half of them beyond it. Their density falls with
+// the distance, in the end with its third power, as what a far part of a plane sends to the sphere does. Surfaces beyond
+// the sphere, which are planes, are called far. A photon that a far diffuse surface scatters goes on towards the sphere, so
+// that its flux, which grew as the density fell, becomes that of others again. So photons carry all light but that which
 // - comes to a far surface straight from beyond the scene: visible points there take it by a shadow ray;
 // - goes from one far surface to another and passes the sphere by, which takes two planes. There half of the camera paths
 //   go on from their visible point, and count again at the next far surface whose light passes the sphere by on its way to

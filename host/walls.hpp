@@ -10,8 +10,9 @@
 namespace causticl {
 
 /// A WallGrid with its lists and walls, as cl/wall_records.h lays them out, for balls of at most `radius`
-/// about visible points of the scene at `time`. A cell lists the walls near it that have surface on both
-/// sides which may hold photons of one normal: nothing else can part photons from a visible point.
+/// about visible points of the scene at `time`. A cell lists the surfaces near it if one of them has surface
+/// on both sides that may hold photons of one normal. Where there is none, nothing parts photons from a
+/// visible point.
 std::vector<std::byte> wall_grid(const Scene& scene, const World& world, double time, double radius);
 
 /// The grid of a scene without walls.

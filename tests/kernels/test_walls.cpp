@@ -1,4 +1,5 @@
 // The lists of walls near visible points against all surfaces of a scene.
+#include <algorithm>
 #include <cstring>
 
 #include "render/render_fixture.hpp"
@@ -64,6 +65,20 @@ std::vector<std::byte> all_walls(const std::vector<WallPrimitive>& primitives) {
   return bytes;
 }
 
+/// Whether the point lies on a surface.
+bool on_surface(Vec3 point, const std::vector<WallPrimitive>& primitives) {
+  constexpr double tolerance = 1e-5;
+  return std::any_of(primitives.begin(), primitives.end(), [&](const WallPrimitive& primitive) {
+    const Wall& wall = primitive.wall;
+    const Vec3 from = point - to_vec3(wall.origin);
+    if (wall.origin.w == WALL_SPHERE) return std::fabs(length(from) - wall.normal.w) < tolerance;
+    if (!(std::fabs(dot(from, to_vec3(wall.normal))) < tolerance)) return false;
+    if (wall.origin.w == WALL_PLANE) return true;
+    return std::all_of(std::begin(wall.edge), std::end(wall.edge),
+                       [&](const float4& edge) { return dot(to_vec3(edge), from) > edge.w; });
+  });
+}
+
 struct Place {
   Vec3 point, normal;
 };
@@ -99,13 +114,13 @@ TEST_CASE("the walls that a cell lists part what all surfaces part") {
     std::vector<float4> points, photons, normals;
     while (points.size() < 40000) {
       const Place a = random_place(random, primitives);
-      // A place nearby, on what a ray from above the neighbourhood would meet: one of many tries that falls
-      // into it.
+      // A place nearby on a surface: one of many tries.
       for (int tries = 0; tries < 40; ++tries) {
         Place b = random_place(random, primitives);
         if (tries < 20) b = {a.point + random.uniform(0, radius) * random_direction(random), a.normal};
         if (length(b.point - a.point) > radius || dot(a.normal, b.normal) < 0.5) continue;
         if (tries < 20) b.point = b.point - dot(a.normal, b.point - a.point) * a.normal;
+        if (!on_surface(b.point, primitives)) continue;
         points.push_back(to_float4(a.point));
         photons.push_back(to_float4(b.point));
         normals.push_back(to_float4(a.normal));
@@ -132,11 +147,9 @@ TEST_CASE("the walls that a cell lists part what all surfaces part") {
       missed += expected[i] && !found[i];
       invented += !expected[i] && found[i];
     }
-    // A wall of one thing alone within reach parts nothing that may hold photons: places here lie anywhere in
-    // their plane, also where there is no surface.
     CHECK(parted > count / 50);
     CHECK(invented == 0);
-    CHECK(missed < parted / 20);
+    CHECK(missed <= parted / 500);  // surface that ends less than a thousandth of the radius behind another
   }
 }
 
