@@ -1,5 +1,6 @@
 // Photons that plates with bent shading normals scatter: SPPM agrees with path tracing.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "render_fixture.hpp"
