@@ -152,8 +152,8 @@ TEST_CASE("photons at bent mirrors and glass go where camera paths come from, wi
       const double ior = inputs[i].direction.w;
       const auto ways = photon_ways(kind, wi, shading, ior);
       const double sum = sum_of(ways);
-      // Where a way begins or ends, or is very steep, rounding decides.
-      bool steep = std::fabs(wi.z) < 0.02;
+      // Where a way begins or ends rounding decides, and differences tell nothing where it is very steep.
+      bool steep = std::fabs(wi.z) < 0.02 || std::fabs(dot(wi, shading)) < 0.05;
       for (const Vec3 step : {Vec3{1, 1, 1}, Vec3{-1, 1, -1}, Vec3{1, -1, -1}}) {
         const double other = sum_of(photon_ways(kind, normalize(wi + 1e-4 * step), shading, ior));
         steep = steep || std::fabs(other - sum) > 0.02 * (sum + 0.1);
