@@ -88,7 +88,8 @@ double spread(uint kind, Vec3 from, Vec3 shading, double ior, std::size_t number
   constexpr double step = 1e-5;
   const Frame frame(from);
   const auto at = [&](Vec3 offset) {
-    return camera_ways(kind, normalize(from + step * offset), shading, ior).at(number).to;
+    const auto ways = camera_ways(kind, normalize(from + step * offset), shading, ior);
+    return ways[std::min(number, ways.size() - 1)].to;
   };
   return length(cross(at(frame.x) - at(-frame.x), at(frame.y) - at(-frame.y))) / (4 * step * step);
 }
@@ -151,15 +152,15 @@ TEST_CASE("photons at bent mirrors and glass go where camera paths come from, wi
       const double ior = inputs[i].direction.w;
       const auto ways = photon_ways(kind, wi, shading, ior);
       const double sum = sum_of(ways);
-      // Where a way begins or ends, or is very steep, rounding decides.
-      bool steep = std::fabs(wi.z) < 0.02;
+      // Where a way begins or ends rounding decides, and differences tell nothing where it is very steep.
+      bool steep = std::fabs(wi.z) < 0.02 || std::fabs(dot(wi, shading)) < 0.05;
       for (const Vec3 step : {Vec3{1, 1, 1}, Vec3{-1, 1, -1}, Vec3{1, -1, -1}}) {
         const double other = sum_of(photon_ways(kind, normalize(wi + 1e-4 * step), shading, ior));
         steep = steep || std::fabs(other - sum) > 0.02 * (sum + 0.1);
       }
       if (steep) continue;
       ++judged;
-      of_two += ways.size() > 1 + (kind == MATERIAL_GLASS);
+      of_two += ways.size() > (kind == MATERIAL_GLASS ? 2u : 1u);
       none += sum == 0;
       wrong_weight += !(std::fabs(outputs[i].w - sum) < 1e-3 * sum + 1e-6);
       const Vec3 to = to_vec3(outputs[i]);

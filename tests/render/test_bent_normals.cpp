@@ -1,5 +1,6 @@
 // Photons that plates with bent shading normals scatter: SPPM agrees with path tracing.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "render_fixture.hpp"
@@ -50,7 +51,7 @@ const char* const floor_below = R"(
 
 void check_agreement(const std::string& scene_text, const char* name) {
   const Scene scene = scene_from_text(scene_text);
-  const auto sppm = render_with(scene, Integrator::sppm, 48);
+  const auto sppm = render_with(scene, Integrator::sppm, 96);
   const auto pt = render_with(scene, Integrator::pt, 8192);
   const double seen = mean_luminance(sppm.picture), exact = mean_luminance(pt.picture);
   std::printf("%-24s SPPM %.5g, path tracing %.5g: %.4f\n", name, seen, exact, seen / exact);
