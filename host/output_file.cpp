@@ -115,8 +115,6 @@ void write_file_or_keep(const std::string& file, const std::string& bytes) {
   }
 }
 
-bool is_left_half_written(const fs::path& file) { return is_abandoned_temporary(file); }
-
 void remove_left_half_written(const fs::path& folder) {
   std::error_code error;
   for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();

@@ -22,10 +22,6 @@ void write_file(const std::string& file, const std::string& bytes);
 /// temporary folder. Throws UserError, which says where they are.
 void write_file_or_keep(const std::string& file, const std::string& bytes);
 
-/// Whether `file` is half of what write_file() wrote in a process that was killed: by its name, because
-/// nobody holds its lock, and because no live process takes the hour that has passed since.
-bool is_left_half_written(const std::filesystem::path& file);
-
 /// Removes from `folder` what write_file() wrote in processes that were killed: what nobody holds the lock
 /// of.
 void remove_left_half_written(const std::filesystem::path& folder);

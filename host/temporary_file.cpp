@@ -118,11 +118,6 @@ void TemporaryFile::rename_to(const fs::path& target) {
   path_.clear();
 }
 
-bool is_abandoned_temporary(const fs::path& file) {
-  const Candidate candidate(file);
-  return candidate.is_abandoned() && is_old(file);
-}
-
 void remove_if_abandoned(const fs::path& file) {
   // The lock is held meanwhile: whoever made the file and is about to lock it finds it taken, and makes
   // another.

@@ -26,9 +26,6 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
-/// Whether `file` is a TemporaryFile by its name that nobody holds any more, and that is an hour old.
-bool is_abandoned_temporary(const std::filesystem::path& file);
-
 /// Removes `file` if it is a TemporaryFile by its name that nobody holds any more. Where the file system has
 /// no locks, it must also be an hour old.
 void remove_if_abandoned(const std::filesystem::path& file);
