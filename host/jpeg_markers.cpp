@@ -9,6 +9,10 @@ namespace {
 // A progressive picture of three channels takes 10 as a rule, and a few dozen where each bit has its own.
 constexpr int most_scans = 64;
 
+// Each scan passes over all pixels, be there data for them or not: 32 times over the largest picture that any
+// small file may hold, and more as the file is larger.
+constexpr std::uint64_t most_passed_pixels = std::uint64_t{1} << 28, most_passed_pixels_a_byte = 4096;
+
 enum Marker : unsigned {
   baseline_frame = 0xc0,
   progressive_frame = 0xc2,
@@ -42,7 +46,7 @@ class Walk {
  private:
   const std::string& bytes_;
   std::size_t at_ = 0;
-  std::uint64_t planes_ = 0;
+  std::uint64_t planes_ = 0, pixels_ = 0, passed_pixels_ = 0;
   int scans_ = 0;
 
   unsigned byte(std::size_t at) const {
@@ -61,9 +65,17 @@ class Walk {
     const std::size_t end = at_ + word(at_);
     if (marker == huffman_tables) check_tables(at_ + 2, end);
     if (marker >= baseline_frame && marker <= progressive_frame) count_planes(marker == progressive_frame);
-    if (marker == start_of_scan && ++scans_ > most_scans)
-      throw std::runtime_error("it has more than " + std::to_string(most_scans) + " scans");
+    if (marker == start_of_scan) count_scan();
     at_ = std::max(at_, end);
+  }
+
+  void count_scan() {
+    passed_pixels_ += pixels_;
+    if (++scans_ > most_scans)
+      throw std::runtime_error("it has more than " + std::to_string(most_scans) + " scans");
+    if (passed_pixels_ > most_passed_pixels + most_passed_pixels_a_byte * bytes_.size())
+      throw std::runtime_error("it has " + std::to_string(scans_) +
+                               " scans or more, too many of so many pixels in so small a file");
   }
 
   /// stb reads tables for as long as the segment's length is not used up.
@@ -88,6 +100,7 @@ class Walk {
     }
     const std::uint64_t units =
         (width + 8 * across - 1) / (8 * across) * ((height + 8 * down - 1) / (8 * down));
+    pixels_ = std::max(pixels_, width * height);
     // A byte a sample, and two more for its coefficient.
     planes_ = std::max(planes_, units * blocks * 64 * (progressive ? 3 : 1));
   }

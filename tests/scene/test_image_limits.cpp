@@ -117,6 +117,10 @@ TEST_CASE("a JPEG of more scans than any encoder makes is refused") {
   CHECK(fault("a.jpg", jpeg_without_data(16, 16, 64, true)).empty());
   CHECK_THAT(fault("a.jpg", jpeg_without_data(16, 16, 65, true)), Contains("more than 64 scans"));
   CHECK_THAT(fault("a.jpg", jpeg_without_data(2000, 2000, 4000, true)), Contains("more than 64 scans"));
+  CHECK(check_jpeg(jpeg_without_data(2896, 2896, 32, true)) == 3u * 2896u * 2896u);
+  CHECK_THAT(fault("a.jpg", jpeg_without_data(2896, 2896, 33, true)), Contains("33 scans or more, too many"));
+  // Not where the file is large.
+  CHECK_NOTHROW(check_jpeg(jpeg_without_data(2896, 2896, 33, true) + std::string(10000, '\0')));
 }
 
 TEST_CASE("an overfull Huffman table is found wherever the decoder would read it") {
