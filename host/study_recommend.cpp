@@ -125,7 +125,8 @@ std::string study_command(const Study& study, const StudySetting& setting, doubl
   words.insert(words.end(), study.words.begin(), study.words.end());
   words.insert(words.end(), setting.words.begin(), setting.words.end());
   words.push_back(setting.path_traced ? "--samples" : "--passes");
-  words.push_back(std::to_string(static_cast<long long>(std::ceil(passes - 1e-9))));
+  constexpr double most = 1 << 30;  // that the option takes
+  words.push_back(std::to_string(static_cast<long long>(std::ceil(passes < most ? passes - 1e-9 : most))));
   if (!limit.empty()) words.insert(words.end(), {"--time", limit});
   words.insert(words.end(), {"-o", std::filesystem::path(study.scene).stem().string() + ".exr"});
   std::string command;

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -33,9 +32,6 @@ std::string quoted(const std::string& text) {
 
 /// JSON has no infinity: a picture with pixels that are not finite has the error null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
-}
 
 Json json_of(const StudySample& sample) {
   return {{"passes", sample.passes},
@@ -45,18 +41,6 @@ Json json_of(const StudySample& sample) {
           {"error_90", number(sample.error_90)},
           {"flip", number(sample.flip)},
           {"mean", number(sample.mean)}};
-}
-
-StudySample sample_of(const Json& json) {
-  StudySample sample;
-  sample.passes = json.at("passes");
-  sample.photons = json.at("photons");
-  sample.seconds = json.at("seconds");
-  sample.relative_mse = number(json.at("relative_mse"));
-  sample.error_90 = number(json.at("error_90"));
-  sample.flip = number(json.at("flip"));
-  sample.mean = number(json.at("mean"));
-  return sample;
 }
 
 Json json_of(const StudyRun& run) {
@@ -69,50 +53,6 @@ Json json_of(const StudyRun& run) {
           {"setup_seconds", run.setup_seconds},
           {"kernel_milliseconds", run.kernel_milliseconds},
           {"samples", samples}};
-}
-
-StudyRun run_of(const Json& json) {
-  StudyRun run;
-  run.knob = json.at("knob");
-  run.value = json.at("value");
-  run.seed = json.at("seed");
-  run.is_long = json.at("long");
-  run.setup_seconds = json.at("setup_seconds");
-  run.kernel_milliseconds = json.at("kernel_milliseconds").get<std::map<std::string, double>>();
-  for (const auto& sample : json.at("samples")) run.samples.push_back(sample_of(sample));
-  return run;
-}
-
-Study study_of(const Json& json) {
-  Study study;
-  study.scene = json.at("scene");
-  study.scene_hash = json.at("scene_hash");
-  study.version = json.at("version");
-  study.device = json.at("device");
-  study.words = json.at("words").get<std::vector<std::string>>();
-  study.options = json.value("options", std::vector<std::string>());
-  study.width = json.at("width");
-  study.height = json.at("height");
-  study.seed = json.at("seed");
-  study.threads = json.at("threads");
-  study.given_reference = json.at("given_reference");
-  study.date = json.at("date");
-  study.first_radius = json.at("first_radius");
-  study.run_seconds = json.at("run_seconds");
-  study.seeds = json.at("seeds");
-  for (const auto& setting : json.at("settings"))
-    study.settings.push_back({setting.at("knob"), setting.at("value"),
-                              setting.at("words").get<std::vector<std::string>>(),
-                              setting.at("path_traced")});
-  study.own_values = json.at("own_values").get<std::map<std::string, std::string>>();
-  study.bases = json.at("bases").get<std::map<std::string, std::string>>();
-  study.left_out = json.at("left_out").get<std::vector<std::string>>();
-  study.spent_seconds = json.at("spent_seconds");
-  if (const auto& reference = json.at("reference"); !reference.is_null())
-    study.reference = StudyReference{reference.at("how"), reference.at("relative_mse"),
-                                     reference.at("error_90"), reference.at("mean"), reference.at("seconds")};
-  for (const auto& run : json.at("runs")) study.runs.push_back(run_of(run));
-  return study;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -189,15 +129,6 @@ std::string study_json(const Study& study) {
                      {"reference", reference},
                      {"runs", runs}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Study study_from_json(const std::string& file, const std::string& text) {
-  try {
-    return study_of(Json::parse(text));
-  } catch (const Json::exception& error) {
-    throw UserError(file + ": not a study that this version wrote (" + error.what() +
-                    "); --restart begins it anew");
-  }
 }
 
 std::string difference_of(const Study& found, const Study& wanted) {

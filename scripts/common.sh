@@ -6,6 +6,7 @@ build_packages=(g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-hea
   pocl-opencl-icd nlohmann-json3-dev libstb-dev libopenexr-dev libxxhash-dev libcli11-dev)
 test_packages=(catch2 clang-format)
 lint_packages=(clang-tidy)
+fuzz_packages=(clang libclang-rt-dev llvm)
 bench_packages=(libembree-dev)
 page_packages=(chromium python3)
 
@@ -57,7 +58,8 @@ set_up_elsewhere() {
 
 # build FOLDER TARGET [CMAKE_OPTION...]: configures where needed and builds; says nothing where all is done.
 build() {
-  local folder=$root/$1 target=$2 options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "${@:3}")
+  local folder=$root/$1 target=$2 options=(-DCMAKE_EXPORT_COMPILE_COMMANDS=ON "${@:3}")
+  [[ " $* " == *" -DCMAKE_BUILD_TYPE="* ]] || options+=(-DCMAKE_BUILD_TYPE=Release)
   # A tree that was moved or copied brings a folder that CMake refuses.
   if [ -f "$folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
     rm -rf "$folder"

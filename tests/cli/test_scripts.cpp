@@ -200,7 +200,7 @@ TEST_CASE("test.sh refuses what it does not know") {
   const Machine machine;
   const Outcome outcome = machine.run("scripts/test.sh --lang");
   CHECK(outcome.exit_code == 1);
-  CHECK(outcome.output == "error: unknown argument --lang; expected --long or --sanitize\n");
+  CHECK(outcome.output == "error: unknown argument --lang; expected --long, --sanitize or --debug\n");
 }
 
 }  // namespace causticl

@@ -95,6 +95,37 @@ TEST_CASE("what is no study is refused") {
   }
 }
 
+TEST_CASE("a study whose parts do not fit together is refused, and the message says which") {
+  const auto message_after = [](const std::string& from, const std::string& to) {
+    std::string text = study_json(made_study());
+    const auto at = text.find(from);
+    REQUIRE(at != text.npos);
+    text.replace(at, from.size(), to);
+    return user_error_of([&] { study_from_json("study.json", text); });
+  };
+  CHECK(message_after("\"seed\": 1", "\"seed\": 2").empty());
+  CHECK_THAT(message_after("\"width\": 40", "\"width\": 1e300"), Contains("width is no whole number"));
+  CHECK_THAT(message_after("\"width\": 40", "\"width\": 0"), Contains("width is no whole number from 1"));
+  CHECK_THAT(message_after("\"seed\": 1", "\"seed\": -1"), Contains("seed is no whole number"));
+  CHECK_THAT(message_after("\"seed\": 1", "\"seed\": 4294967296"), Contains("4294967295"));
+  CHECK_THAT(message_after("\"passes\": 1,", "\"passes\": 0,"), Contains("passes is no whole number from 1"));
+  CHECK_THAT(message_after("\"run_seconds\": 6.4", "\"run_seconds\": -1"),
+             Contains("run_seconds is no number"));
+  CHECK_THAT(message_after("\"run_seconds\": 6.4", "\"run_seconds\": 1e200"),
+             Contains("run_seconds is no number"));
+  CHECK_THAT(message_after("\"--integrator\"", "\"-o\""), Contains("an option is none that a study sets"));
+  CHECK_THAT(message_after("\"--size\",", ""), Contains("an option lacks its value"));
+  CHECK_THAT(message_after("\"40x30\"", "\"40\\u0000\""), Contains("U+0000"));
+  CHECK_THAT(message_after("\"knob\": \"max_depth\"", "\"knob\": \"no such\""), Contains("unknown knob"));
+  CHECK_THAT(message_after("\"own_values\"", "\"own_values\": {}, \"others\""),
+             Contains("scene's own value"));
+  CHECK_THAT(message_after("\"reference\"", "\"reference\": null, \"other\""),
+             Contains("without a reference"));
+  CHECK_THAT(message_after("\"settings\"", "\"settings\": [], \"others\""), Contains("without a setting"));
+  // The parser's message would quote this.
+  CHECK_THAT(message_after("\"width\"", "\x1b[31m"), Contains("no JSON from byte") && !Contains("\x1b"));
+}
+
 TEST_CASE("a study of other things is told from this one") {
   const Study study = made_study();
   const auto differs = [&](auto change) {
