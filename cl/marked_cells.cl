@@ -33,6 +33,13 @@ INLINE void mark_cells(volatile global uint *marks, Grid cells, float3 normal, r
   mark_facing(marks, cells, gathered_facings(normal), position, reach);
 }
 
+// Whether a point lies in the grid as it is, before its cells wrap around: where space has no end, what is far off would
+// else pass for what is in view.
+INLINE bool lies_in_grid(Grid cells, real3 position) {
+  real3 place = (position - convert_real3(cells.origin.xyz)) * (real)cells.origin.w;
+  return place.x >= 0 && place.y >= 0 && place.z >= 0 && place.x < cells.nx && place.y < cells.ny && place.z < cells.nz;
+}
+
 // Whether visible points have been seen around a photon that landed there on a surface of that normal. An estimate is all
 // that is asked for: within their radius, points may find photons of cells that are not marked.
 INLINE bool is_marked(global const uint *marks, Grid cells, float3 normal, real3 position) {

@@ -158,7 +158,9 @@ kernel void count_marked(global const Photon *photons, global const uint *marks,
                          uint count) {
   uint i = get_global_id(0);
   if (i >= count || (photons[i].normal & IN_MEDIUM)) return;
-  if (is_marked(marks, cells, normal_unpack(photons[i].normal), vload3(0, photons[i].position))) atomic_inc(marked);
+  real3 position = vload3(0, photons[i].position);
+  if (lies_in_grid(cells, position) && is_marked(marks, cells, normal_unpack(photons[i].normal), position))
+    atomic_inc(marked);
 }
 
 // Every pixel's first radius.

@@ -23,13 +23,13 @@ constexpr int most_steps = 6;
 constexpr double useful_enough = 0.4;
 constexpr std::uint32_t beyond_passes = 0xffffff00;  // random numbers of their own
 // Where so few are of use, more batches of scouts are traced, but no more than this.
-constexpr std::size_t fewest_useful = 32;
+constexpr std::size_t fewest_useful = 64;
 constexpr std::uint32_t most_batches = 8;
 
 // Cells around points in view, by which the use of photons is told, are as wide as this share of the room:
 // about as far as the points of the coarse picture lie apart.
 constexpr double marked_share = 1.0 / 24;
-constexpr uint marked_across = 256;  // before cells wrap around: ten times the room
+constexpr uint marked_across = 128;  // cells: five times the room
 
 /// Where a point of view lies; none where there is nothing.
 std::optional<Vec3> position_of(const std::byte* record, bool in_double) {
@@ -123,12 +123,12 @@ void Sppm::choose_first_radius(const cl::Buffer& points, Params params, Pilot& p
 /// Decides by which map photons start, if by any, and lets them.
 void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot& pilot) {
   const double cell = marked_share * pilot.around.room;
-  const Grid cells{{static_cast<float>(pilot.around.low.x), static_cast<float>(pilot.around.low.y),
-                    static_cast<float>(pilot.around.low.z), static_cast<float>(1 / cell)},
-                   marked_across,
-                   marked_across,
-                   marked_across,
-                   0};
+  const auto low = [&](int axis) {  // what is seen lies in the middle
+    return static_cast<float>(0.5 *
+                              (pilot.around.low[axis] + pilot.around.high[axis] - marked_across * cell));
+  };
+  const Grid cells{
+      {low(0), low(1), low(2), static_cast<float>(1 / cell)}, marked_across, marked_across, marked_across, 0};
   const cl::Buffer marks = device_.buffer((buckets_of(cells) + 3) / 4 * sizeof(cl_uint), "marked cells");
   device_.clear(marks, marks.getInfo<CL_MEM_SIZE>());
   cl::Kernel mark = programs_.kernel("gather", "mark_in_view");
