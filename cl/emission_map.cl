@@ -20,9 +20,10 @@ INLINE uint emission_cell(global const EmissionCell *cells, uint count, real u) 
   return low;
 }
 
-// Coordinate `axis` of the point of a cell that uniform number x stands for. Below 1 after rounding too.
+// Coordinate `axis` of the point of a cell that uniform number x stands for. Below the cell's end after rounding too.
 INLINE real emission_number(global const EmissionCell *cell, uint axis, real x) {
-  return fmin(cell->low[axis] + cell->size[axis] * x, (real)0.99999994f);
+  real low = cell->low[axis], size = cell->size[axis];
+  return fmin(low + size * x, (low + size) * (real)0.99999994f);
 }
 
 // The same of all numbers: `choice` of DIM_EMITTER, (*u, *v) of DIM_EMISSION.

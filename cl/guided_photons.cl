@@ -59,9 +59,9 @@ OUTLINE void wave_guide(const Guide *guide, const Params *params, uint count, Wa
   uint seeds = 0;
   for (uint i = 0; i < count; ++i) {
     if (!(wave->events[i] & wanted)) continue;
-    bool marked = !(wave->normal[i] & IN_MEDIUM) &&
-                  is_marked(guide->marks, guide->cells, normal_unpack(wave->normal[i]),
-                            (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]));
+    real3 position = (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]);
+    bool marked = !(wave->normal[i] & IN_MEDIUM) && (!learning || lies_in_grid(guide->cells, position)) &&
+                  is_marked(guide->marks, guide->cells, normal_unpack(wave->normal[i]), position);
     if (marked == scouts) wave->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
     if (!marked || wave->useful[i]) continue;
     wave->useful[i] = scouts ? 2 : 1;  // 2: not in the list yet

@@ -150,12 +150,25 @@ kernel void mark_visible_points(global const VisiblePoint *visible_points, volat
   mark_cells(marks, cells, normal_unpack(point.normal), vload3(0, point.position), reach);
 }
 
+// The same for the pilot, which asks which photons are of use: of surfaces that face the same way alone, so that photons on
+// the other side of a ceiling are not, though points on walls below might gather some of them.
+kernel void mark_in_view(global const VisiblePoint *visible_points, volatile global uint *marks, Grid cells, float reach,
+                         uint count) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  VisiblePoint point = visible_points[i];
+  if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0) || (point.normal & IN_MEDIUM)) return;
+  mark_facing(marks, cells, facing_bit(normal_unpack(point.normal)), vload3(0, point.position), reach);
+}
+
 // Adds to *marked the photons on surfaces that landed in marked cells.
 kernel void count_marked(global const Photon *photons, global const uint *marks, volatile global uint *marked, Grid cells,
                          uint count) {
   uint i = get_global_id(0);
   if (i >= count || (photons[i].normal & IN_MEDIUM)) return;
-  if (is_marked(marks, cells, normal_unpack(photons[i].normal), vload3(0, photons[i].position))) atomic_inc(marked);
+  real3 position = vload3(0, photons[i].position);
+  if (lies_in_grid(cells, position) && is_marked(marks, cells, normal_unpack(photons[i].normal), position))
+    atomic_inc(marked);
 }
 
 // Every pixel's first radius.

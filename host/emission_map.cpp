@@ -7,11 +7,12 @@
 namespace causticl {
 namespace {
 
-constexpr double guided_share = 0.75;      // of photons that the map draws; the others start evenly
-constexpr std::size_t most_cells = 2048;   // of the numbers of 24 bits, thousands for each
-constexpr std::size_t fewest_useful = 12;  // in a cell that is cut
-constexpr std::size_t bins = 8;            // of the histogram by which a cut is chosen
-constexpr double uneven = 3;               // times what chance makes of a histogram, before a cell is cut
+constexpr double guided_share = 0.75;     // of photons that the map draws; the others start evenly
+constexpr std::size_t most_cells = 2048;  // of the numbers of 24 bits, thousands for each
+constexpr std::size_t fewest_useful = 4;  // in a cell that is cut
+constexpr double unseen = 0.1;            // useful photons that each cell may have beside those found
+constexpr std::size_t bins = 8;           // of the histogram by which a cut is chosen
+constexpr double uneven = 3;              // times what chance makes of a histogram, before a cell is cut
 constexpr double smallest_side = 1.0 / 4096;
 
 struct Sample {
@@ -142,11 +143,10 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
     StartNumbers middle;
     for (std::size_t axis = 0; axis < START_NUMBERS; ++axis)
       middle[axis] = box.cell.low[axis] + box.cell.size[axis] / 2;
-    // Half a photon more than were found, so that what was not looked at closely is not given up.
-    double mass = 0.5 * std::min(1.0, emission_share(drawn_by, middle));
+    // A part of a photon more than were found, so that what was not looked at closely is not given up.
+    double mass = unseen * std::min(1.0, emission_share(drawn_by, middle));
     for (std::size_t i = box.first; i < box.end; ++i) mass += samples[i].weight;
-    mass = std::min(mass / static_cast<double>(photons), volume(box.cell));
-    wanted.push_back(std::sqrt(volume(box.cell) * mass));
+    wanted.push_back(std::min(mass / static_cast<double>(photons), volume(box.cell)));
   }
   const double all = std::accumulate(wanted.begin(), wanted.end(), 0.0);
   std::vector<double> probabilities;

@@ -24,11 +24,19 @@ PhotonGuide::PhotonGuide(const DeviceScene& scene, Device& device, Programs& pro
       device_(device),
       programs_(programs),
       photons_(photons),
-      scouts_(guided ? static_cast<std::uint32_t>(scout_share * photons) : 0),
-      seeds_(device.buffer(scouts_ * sizeof(cl_uint2), "seeds of photons")),
-      accepted_(device.buffer(scouts_ * sizeof(cl_uint), "seeds of photons")),
+      scouts_(0),
+      seeds_(device.buffer(0, "seeds of photons")),
+      accepted_(device.buffer(0, "seeds of photons")),
       marks_(device.buffer(0, "marked cells")),
-      emission_(device.buffer(0, "emission map")) {}
+      emission_(device.buffer(0, "emission map")) {
+  if (guided) guide();
+}
+
+void PhotonGuide::guide() {
+  scouts_ = static_cast<std::uint32_t>(scout_share * photons_);
+  seeds_ = device_.buffer(scouts_ * sizeof(cl_uint2), "seeds of photons");
+  accepted_ = device_.buffer(scouts_ * sizeof(cl_uint), "seeds of photons");
+}
 
 PhotonGuide::Emission PhotonGuide::emission(std::uint32_t pass) const {
   if (pass < next_guided_ || scouts_ == 0) return {photons_, PHOTONS_PLAIN};

@@ -37,6 +37,9 @@ class PhotonGuide {
   /// As last found.
   std::optional<SeedStatistics> seeds() const { return seeds_found_; }
 
+  /// From now on photons are guided. With kernels of EFFECT_GUIDED_PHOTONS.
+  void guide();
+
   /// From now on photons start by this map (emission_map.hpp); where it is empty, everywhere.
   void set_emission(const std::vector<EmissionCell>& cells);
   const cl::Buffer& emission_cells() const { return emission_; }

@@ -167,6 +167,11 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
   std::optional<Pilot> pilot;
   for (const auto& part : parts) start_integrator(*part, scene, options.seed, with_photons, pilot);
+  if (pilot && pilot->copies && parts.size() > 1) {
+    pilot->copies = false;
+    for (const auto& part : parts) start_integrator(*part, scene, options.seed, with_photons, pilot);
+    if (notice) notice("useful photons are not copied: copies cannot be shared between devices");
+  }
   if (pilot) {
     statistics.first_radius = pilot->first_radius;
     statistics.first_radius_chosen = !scene.renderer.radius;

@@ -23,13 +23,13 @@ constexpr int most_steps = 6;
 constexpr double useful_enough = 0.4;
 constexpr std::uint32_t beyond_passes = 0xffffff00;  // random numbers of their own
 // Where so few are of use, more batches of scouts are traced, but no more than this.
-constexpr std::size_t fewest_useful = 32;
+constexpr std::size_t fewest_useful = 64;
 constexpr std::uint32_t most_batches = 8;
 
 // Cells around points in view, by which the use of photons is told, are as wide as this share of the room:
 // about as far as the points of the coarse picture lie apart.
 constexpr double marked_share = 1.0 / 24;
-constexpr uint marked_across = 128;  // before cells wrap around: five times the room
+constexpr uint marked_across = 128;  // cells: five times the room
 
 /// Where a point of view lies; none where there is nothing.
 std::optional<Vec3> position_of(const std::byte* record, bool in_double) {
@@ -123,15 +123,15 @@ void Sppm::choose_first_radius(const cl::Buffer& points, Params params, Pilot& p
 /// Decides by which map photons start, if by any, and lets them.
 void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot& pilot) {
   const double cell = marked_share * pilot.around.room;
-  const Grid cells{{static_cast<float>(pilot.around.low.x), static_cast<float>(pilot.around.low.y),
-                    static_cast<float>(pilot.around.low.z), static_cast<float>(1 / cell)},
-                   marked_across,
-                   marked_across,
-                   marked_across,
-                   0};
+  const auto low = [&](int axis) {  // what is seen lies in the middle
+    return static_cast<float>(0.5 *
+                              (pilot.around.low[axis] + pilot.around.high[axis] - marked_across * cell));
+  };
+  const Grid cells{
+      {low(0), low(1), low(2), static_cast<float>(1 / cell)}, marked_across, marked_across, marked_across, 0};
   const cl::Buffer marks = device_.buffer((buckets_of(cells) + 3) / 4 * sizeof(cl_uint), "marked cells");
   device_.clear(marks, marks.getInfo<CL_MEM_SIZE>());
-  cl::Kernel mark = programs_.kernel("gather", "mark_visible_points");
+  cl::Kernel mark = programs_.kernel("gather", "mark_in_view");
   set_arguments(mark, points, marks, cells, static_cast<cl_float>(0.49 * cell),
                 static_cast<cl_uint>(params.pixel_count));
   device_.launch_pass(mark, params.pixel_count);
@@ -169,6 +169,8 @@ void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot&
   if (!(pilot.useful_by_map > worthwhile_gain * plain)) map.clear();
   guide_.set_emission(map);
   pilot.emission = map;
+  pilot.copies = plain > 0 && std::max(plain, pilot.useful_by_map) < worth_guiding;
+  if (pilot.copies) guide_.guide();
 }
 
 /// Lets photons start by `emission`, with kernels that can.
@@ -185,8 +187,9 @@ void Sppm::start_by(const std::vector<EmissionCell>& emission) {
 void Sppm::adopt(const Pilot& pilot) {
   pilot_ = pilot;
   device_scene_.least_scale = pilot.around.room / 2;
-  if (pilot.emission.empty()) return;
+  if (pilot.emission.empty() && !pilot.copies) return;
   start_by(pilot.emission);
+  if (pilot.copies) guide_.guide();
   trace_photons(0);
 }
 
@@ -210,7 +213,7 @@ Pilot Sppm::run_pilot() {
   const bool in_medium = (programs_.options().effects & EFFECT_MEDIUM) != 0;
   if (spec_.guided_photons || in_medium) return pilot;
   learn_emission(points, params, pilot);
-  if (pilot.emission.empty()) return pilot;
+  if (pilot.emission.empty() && !pilot.copies) return pilot;
   trace_photons(0);
   if (!spec_.radius) choose_first_radius(points, params, pilot);
   return pilot;
