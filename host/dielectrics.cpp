@@ -109,8 +109,7 @@ class Finder {
       const Body body = make_body(scene_, object);
       std::string names;
       for (std::size_t k = 0; k < glass_.size(); ++k)
-        if (objects_[k] != static_cast<int>(i) && glass_[k].closed &&
-            held_by(glass_[k], body) != Held::nothing)
+        if (objects_[k] != static_cast<int>(i) && held_by(glass_[k], body) != Held::nothing)
           names += (names.empty() ? "" : ", ") + scene_.objects[objects_[k]].pointer;
       if (names.empty()) continue;
       result_.holds_emitter[i] = true;
