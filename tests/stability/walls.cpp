@@ -1,4 +1,5 @@
 // Hard case 27: what stands between a photon and a visible point.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -56,19 +57,22 @@ bool crosses(const Wall& wall, Vec3 a, Vec3 b, double margin, double touch) {
     const Vec3 way = b - a;
     const double nearest =
         std::fmin(std::fmax(dot(origin - a, way) / std::fmax(dot(way, way), 1e-300), 0), 1);
+    if (std::fabs(da) < std::fabs(margin)) return margin > 0;  // on the sphere: either side may be meant
     if (da < 0) return db > -margin;
     return db < margin || length(a + nearest * way - origin) < radius + margin;
   }
   double da = dot(n, a - origin), db = dot(n, b - origin);
   if (da < 0) da = -da, db = -db;
   if (!(db < std::fmax(margin, touch))) return false;
-  const double share = da > db ? std::fmin(da / (da - db), 1) : 1;
-  const Vec3 p = a + share * (b - a) - origin;
-  if (static_cast<uint>(wall.origin.w) == WALL_PLANE) return true;
-  if (static_cast<uint>(wall.origin.w) == WALL_DISK) return length(p) < wall.normal.w + margin;
-  for (const float4& edge : wall.edge)
-    if (!(dot(vec(edge), p) > edge.w - margin)) return false;
-  return true;
+  const auto inside = [&](Vec3 p) {
+    if (static_cast<uint>(wall.origin.w) == WALL_PLANE) return true;
+    if (static_cast<uint>(wall.origin.w) == WALL_DISK) return length(p - origin) < wall.normal.w + margin;
+    return std::all_of(std::begin(wall.edge), std::end(wall.edge),
+                       [&](const float4& edge) { return dot(vec(edge), p - origin) > edge.w - margin; });
+  };
+  // Along the wall it is crossed anywhere, if at all.
+  if (da < 4 * std::fabs(margin)) return margin > 0 || (inside(a) && inside(b));
+  return inside(a + std::fmin(da / (da - db), 1) * (b - a));
 }
 
 /// walls_between() by the same two paths, in double.
