@@ -137,18 +137,21 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
   std::sort(samples.begin(), samples.end(),
             [](const Sample& a, const Sample& b) { return a.numbers < b.numbers; });
   const auto boxes = boxes_of(samples);
-  std::vector<double> wanted;
+  std::vector<double> mass, deviation;
   for (const Box& box : boxes) {
-    double mass = 0;
-    for (std::size_t i = box.first; i < box.end; ++i) mass += samples[i].weight;
-    mass = std::min(mass / static_cast<double>(photons), volume(box.cell));
-    wanted.push_back(std::sqrt(volume(box.cell) * mass));
+    double sum = 0;
+    for (std::size_t i = box.first; i < box.end; ++i) sum += samples[i].weight;
+    mass.push_back(std::min(sum / static_cast<double>(photons), volume(box.cell)));
+    deviation.push_back(std::sqrt(volume(box.cell) * mass.back()));
   }
-  const double all = std::accumulate(wanted.begin(), wanted.end(), 0.0);
+  const double masses = std::accumulate(mass.begin(), mass.end(), 0.0);
+  const double deviations = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> probabilities;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    probabilities.push_back((1 - guided_share) * volume(boxes[i].cell) +
-                            guided_share * (all > 0 ? wanted[i] / all : volume(boxes[i].cell)));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double even = volume(boxes[i].cell);
+    const double wanted = masses > 0 ? 0.5 * (mass[i] / masses + deviation[i] / deviations) : even;
+    probabilities.push_back((1 - guided_share) * even + guided_share * wanted);
+  }
   return with_numbers(boxes, probabilities);
 }
 
