@@ -10,7 +10,6 @@ namespace {
 constexpr double guided_share = 0.75;     // of photons that the map draws; the others start evenly
 constexpr std::size_t most_cells = 2048;  // of the numbers of 24 bits, thousands for each
 constexpr std::size_t fewest_useful = 4;  // in a cell that is cut
-constexpr double unseen = 0.1;            // useful photons that each cell may have beside those found
 constexpr std::size_t bins = 8;           // of the histogram by which a cut is chosen
 constexpr double uneven = 3;              // times what chance makes of a histogram, before a cell is cut
 constexpr double smallest_side = 1.0 / 4096;
@@ -138,20 +137,21 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
   std::sort(samples.begin(), samples.end(),
             [](const Sample& a, const Sample& b) { return a.numbers < b.numbers; });
   const auto boxes = boxes_of(samples);
-  std::vector<double> wanted;
+  std::vector<double> mass, deviation;
   for (const Box& box : boxes) {
-    StartNumbers middle;
-    for (std::size_t axis = 0; axis < START_NUMBERS; ++axis)
-      middle[axis] = box.cell.low[axis] + box.cell.size[axis] / 2;
-    // A part of a photon more than were found, so that what was not looked at closely is not given up.
-    double mass = unseen * std::min(1.0, emission_share(drawn_by, middle));
-    for (std::size_t i = box.first; i < box.end; ++i) mass += samples[i].weight;
-    wanted.push_back(std::min(mass / static_cast<double>(photons), volume(box.cell)));
+    double sum = 0;
+    for (std::size_t i = box.first; i < box.end; ++i) sum += samples[i].weight;
+    mass.push_back(std::min(sum / static_cast<double>(photons), volume(box.cell)));
+    deviation.push_back(std::sqrt(volume(box.cell) * mass.back()));
   }
-  const double all = std::accumulate(wanted.begin(), wanted.end(), 0.0);
+  const double masses = std::accumulate(mass.begin(), mass.end(), 0.0);
+  const double deviations = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> probabilities;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    probabilities.push_back((1 - guided_share) * volume(boxes[i].cell) + guided_share * wanted[i] / all);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double even = volume(boxes[i].cell);
+    const double wanted = masses > 0 ? 0.5 * (mass[i] / masses + deviation[i] / deviations) : even;
+    probabilities.push_back((1 - guided_share) * even + guided_share * wanted);
+  }
   return with_numbers(boxes, probabilities);
 }
 

@@ -26,7 +26,7 @@ const std::map<std::string, unsigned> effects_read{
     {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS |
                    EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | EFFECT_HORIZON | OUTPUT_LAYERS},
     {"grid", 0},
-    {"gather", EFFECT_MEDIUM | EFFECT_GUIDED_PHOTONS | EFFECT_WALLS | OUTPUT_LAYERS},
+    {"gather", EFFECT_MEDIUM | EFFECT_WALLS | OUTPUT_LAYERS},
     {"film", 0},
     {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS | OUTPUT_LAYERS},
 };

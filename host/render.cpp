@@ -14,9 +14,8 @@
 #include "error.hpp"
 #include "error_watch.hpp"
 #include "passes.hpp"
-#include "path.hpp"
 #include "several_devices.hpp"
-#include "sppm.hpp"
+#include "start_integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -73,19 +72,6 @@ std::vector<PassStatistics> pass_statistics(const std::vector<PassPlan>& plan,
       }
   }
   return result;
-}
-
-/// Makes the integrator of `on`. SPPM holds to `pilot`, or puts there what its own decided.
-void start_integrator(RenderDevice& on, const Scene& scene, std::uint32_t seed, bool with_photons,
-                      std::optional<Pilot>& pilot) {
-  if (scene.renderer.integrator == Integrator::pt) {
-    on.integrator = std::make_unique<PathTracer>(scene, on.scene, on.device, on.film, on.programs, seed);
-    return;
-  }
-  auto sppm = std::make_unique<Sppm>(scene, on.scene, on.device, on.film, on.programs, seed, with_photons,
-                                     pilot ? &*pilot : nullptr);
-  pilot = sppm->pilot();
-  on.integrator = std::move(sppm);
 }
 
 bool is_black(const Picture& picture) {
@@ -165,18 +151,9 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
                                                    RayChoice{options.camera_rays, options.photon_rays},
                                                    passes_to_run(plan), options.threads));
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
-  std::optional<Pilot> pilot;
-  for (const auto& part : parts) start_integrator(*part, scene, options.seed, with_photons, pilot);
-  if (pilot && pilot->copies && parts.size() > 1) {
-    pilot->copies = false;
-    for (const auto& part : parts) start_integrator(*part, scene, options.seed, with_photons, pilot);
-    if (notice) notice("useful photons are not copied: copies cannot be shared between devices");
-  }
-  if (pilot) {
+  if (const auto pilot = start_integrators(parts, scene, options.seed, with_photons, notice)) {
     statistics.first_radius = pilot->first_radius;
     statistics.first_radius_chosen = !scene.renderer.radius;
-    if (with_photons && notice)
-      for (const auto& line : pilot_lines(*pilot, scene.renderer)) notice(line);
   }
   for (Device* device : devices) device->queue().finish();
   RenderDevice& first = *parts.front();
