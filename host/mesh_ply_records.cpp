@@ -40,9 +40,6 @@ void Records::fail(const std::string& fault) const {
 void Records::begin(const Element& element) {
   element_ = &element;
   index_ = begun_ = 0;
-  if ((element.name == "vertex" || element.name == "face") && element.count >= most_items)
-    input_.fail_file("the header declares " + std::to_string(element.count) + " of element " +
-                     quoted(element.name) + "; expected at most 4294967294");
   std::uint64_t smallest = 0;  // bytes of a record
   for (const Property& property : element.properties)
     smallest += format_ == Format::ascii ? 2 : size_of(property.count_type.value_or(property.type));
@@ -52,6 +49,9 @@ void Records::begin(const Element& element) {
     input_.fail_file("the header declares " + std::to_string(element.count) + " of element " +
                      quoted(element.name) + ", but only " + std::to_string(input_.remaining()) +
                      " bytes follow; is the file truncated?");
+  if ((element.name == "vertex" || element.name == "face") && element.count >= most_items)
+    input_.fail_file("the header declares " + std::to_string(element.count) + " of element " +
+                     quoted(element.name) + "; expected at most 4294967294");
 }
 
 bool Records::next() {
