@@ -11,7 +11,7 @@ import sys
 import numpy as np
 from PIL import Image
 
-from assets import dragon, logo, mesh, models, sky, stress, textures
+from assets import dragon, logo, mesh, models, sky, stress, textures, tumbler
 from assets.textures import srgb
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
@@ -50,6 +50,7 @@ def texture(build, srgb_coded=False, colours=None):
 
 OAK = srgb(120, 74, 40), srgb(206, 150, 92)
 WALNUT = srgb(84, 50, 34), srgb(156, 100, 64)
+SMOKED = srgb(44, 29, 22), srgb(112, 74, 50)
 MAPLE = srgb(172, 136, 98), srgb(228, 202, 164)
 
 ASSETS = {
@@ -73,6 +74,15 @@ ASSETS = {
     "disc_lamp.obj": obj(models.disc_lamp),
     "mirror_ring.ply": ply(models.mirror_ring),
     "glass_prism.obj": obj(models.glass_prism),
+    # A tumbler of iced water: bodies that overlap.
+    "tumbler.ply": ply(tumbler.tumbler),
+    "tumbler_water.ply": ply(tumbler.water),
+    "ice_cube.ply": ply(lambda: tumbler.ice_cube(4)),
+    "ice_bubbles.ply": ply(tumbler.ice_bubbles),
+    "straw.ply": ply(tumbler.straw),
+    "lemon_slice.ply": ply(tumbler.lemon_slice),
+    "spilt_water.ply": ply(tumbler.spilt_water),
+    "condensation.ply": ply(tumbler.condensation),
     # Textures for base-format scenes, which read texels undecoded: these hold linear values.
     "seascape.jpg": texture(lambda: textures.seascape(1000, 816, 4)),
     "wallpaper.png": texture(lambda: textures.wallpaper(256, srgb(214, 208, 190), srgb(188, 184, 160),
@@ -88,6 +98,9 @@ ASSETS = {
     "logo.png": texture(lambda: logo.logo(512, logo.INK, logo.GOLD, srgb(250, 250, 250))),
     # Textures for the extended scenes, decoded from sRGB.
     "maple_srgb.jpg": texture(lambda: textures.wood(800, 640, 5, *MAPLE, 17), srgb_coded=True),
+    "smoked_oak_srgb.jpg": texture(lambda: textures.wood(400, 400, 4, *SMOKED, 23), srgb_coded=True),
+    "lemon.jpg": texture(lambda: tumbler.lemon(200), srgb_coded=True),
+    "straw.png": texture(lambda: tumbler.stripes(64), srgb_coded=True, colours=16),
     # A sky, as radiance.
     "sky.hdr": lambda name: sky.write_hdr(FOLDER / name, sky.sky(384, 192)),
     # What the stress scenes compare: hard meshes, and easy ones of the same shapes.

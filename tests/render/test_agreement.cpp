@@ -34,6 +34,7 @@ const std::vector<Budget> budgets{
     {"cornell_box.json", 96, 250000, 1024},
     {"furnace.json", 64, 250000, 512},
     {"glass_caustic.json", 12000, 5000, 40000, 32, 24, 0.4},
+    {"tumbler.json", 8000, 10000, 65536, 32, 24, 0.3},
     {"effects/rough_metals.json", 800, 60000, 4096, 64, 40, 0.08},
     {"effects/point_lights.json", 400, 60000, 2048, 64, 40, 0.08},
     {"effects/sky.json", 8000, 10000, 65536, 32, 20, 0.06},
