@@ -22,7 +22,7 @@ std::pair<std::vector<Photon>, Counters> traced(const Scene& scene, uint photons
   PhotonGuide unguided(device_scene, test_device(), programs, photons, false);
   PhotonAim aimless(test_device(), device_scene.emitter_count, photons, false);
   PhotonMap map(device_scene, test_device(), programs, counters, unguided, aimless);
-  map.prepare();
+  map.prepare(programs);
   Params params = scene_params(scene, device_scene, 7);
   begin_pass(params, 0);
   params.photon_count = photons;
