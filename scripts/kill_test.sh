@@ -34,16 +34,24 @@ trap 'rm -rf "$work"' EXIT
 export CAUSTICL_CACHE_DIR=$work/cache TMPDIR=$work/tmp
 mkdir "$work/tmp"
 scene=$root/scenes/furnace.json
-options=(--size 48x32 --passes 8 --photons 2000 --quiet)
+options=(--size 48x32 --photons 2000 --quiet)
 
-render() { "$causticl" render "$scene" "${options[@]}" -o "$1/a.png" -o "$1/a.exr" -o "$1/a.pfm"; }
+# render_to FOLDER [PASSES]: sets `command`.
+render_to() {
+  command=("$causticl" render "$scene" "${options[@]}" --passes "${2:-8}" -o "$1/a.png" -o "$1/a.exr" -o "$1/a.pfm")
+}
+render() {
+  render_to "$@"
+  "${command[@]}"
+}
 
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 
-# kill_after MILLISECONDS COMMAND...: whether the command was killed rather than done before.
+# kill_after MILLISECONDS: whether `command` was killed rather than done before.
 kill_after() {
   local wait=$1 status=0 child
-  "${@:2}" >"$work/said" 2>&1 &
+  # Not a function: that would be a shell, killed in place of the program.
+  "${command[@]}" >"$work/said" 2>&1 &
   child=$!
   sleep "$(printf '%d.%03d' $((wait / 1000)) $((wait % 1000)))"
   kill -9 "$child" 2>/dev/null || true
@@ -71,32 +79,37 @@ holds_no_run_folder() {
   [ -z "$left" ] || fail "left over after the next run: $left"
 }
 
-mkdir "$work/whole" "$work/out"
-render "$work/whole" # compiles the kernels
+# Pictures are written after 1, 2 and 4 passes too: any of these is whole.
+mkdir "$work/out" "$work"/whole{1,2,4,8}
+for passes in 1 2 4 8; do render "$work/whole$passes" $passes; done # the first compiles the kernels
 begin=$(milliseconds)
-render "$work/whole"
+render "$work/whole8"
 span=$(($(milliseconds) - begin))
 
 is_whole() {
-  local file=$work/out/$1
-  [ ! -e "$file" ] || case $1 in
-    # Its metadata hold times.
-    *.exr) "$causticl" compare "$file" "$work/whole/a.pfm" >"$work/said" || fail "$1 is damaged after a kill" ;;
-    *) cmp -s "$file" "$work/whole/$1" || fail "$1 is damaged after a kill" ;;
+  local file=$work/out/$1 passes
+  [ -e "$file" ] || return 0
+  case $1 in
+    # Its metadata hold times, so that no two are the same.
+    *.exr) "$causticl" compare "$file" "$work/whole8/a.pfm" >"$work/said" && return ;;
+    *) for passes in 1 2 4 8; do cmp -s "$file" "$work/whole$passes/$1" && return; done ;;
   esac
+  fail "$1 is damaged after a kill"
 }
 
 killed=0
 for ((i = 0; i < renders; ++i)); do
   # Half of the kills fall into the last tenth, where files are written.
   if ((i % 2)); then wait=$((span * 9 / 10 + span * (i % 40) / 200)); else wait=$((span * (i % 100) / 100)); fi
-  if kill_after "$wait" render "$work/out"; then killed=$((killed + 1)); fi
+  render_to "$work/out"
+  if kill_after "$wait"; then killed=$((killed + 1)); fi
   for name in a.png a.exr a.pfm; do is_whole "$name"; done
   ((i % 20 == 19)) || continue
   make_old "$work/out" "$work/cache" "$work/tmp"
   render "$work/out" || fail "the run after a killed one failed"
   for name in a.png a.exr a.pfm; do
     [ -e "$work/out/$name" ] || fail "the run after a killed one wrote no $name"
+    [ "$name" = a.exr ] || cmp -s "$work/out/$name" "$work/whole8/$name" || fail "$name is not what it was"
     is_whole "$name"
   done
   holds_only "$work/out" a.png a.exr a.pfm
@@ -106,8 +119,9 @@ for ((i = 0; i < renders; ++i)); do
 done
 echo "renders: $renders runs, $killed killed before their end; no damaged file, nothing left over, the next runs work"
 
-study() {
-  "$causticl" study "$scene" --size 24x16 --knobs max_depth,alpha --seeds 1 --budget "$1" --quiet -o "$work/study"
+# Sets `command` to a study of so many seconds.
+study_of() {
+  command=("$causticl" study "$scene" --size 24x16 --knobs "max_depth,alpha" --seeds 1 --budget "$1" --quiet -o "$work/study")
 }
 
 check_study() {
@@ -120,12 +134,14 @@ check_study() {
 
 killed=0
 for ((i = 0; i < studies; ++i)); do
-  if kill_after $((100 + 5900 * (i % 25) / 25)) study 600; then killed=$((killed + 1)); fi
+  study_of 600
+  if kill_after $((100 + 5900 * (i % 25) / 25)); then killed=$((killed + 1)); fi
   [ ! -d "$work/study" ] || check_study
   ((i % 25 == 24)) || continue
   make_old "$work/study" "$work/cache" "$work/tmp"
-  # The budget of the killed ones counts: what is over it is the time to finish in.
-  study 8 >"$work/said" 2>&1 || fail "the study after a killed one failed: $(cat "$work/said")"
+  # What the killed ones spent counts: a new budget is left for the rest.
+  study_of 60
+  "${command[@]}" >"$work/said" 2>&1 || fail "the study after a killed one failed: $(cat "$work/said")"
   for name in study.csv study.html; do [ -s "$work/study/$name" ] || fail "the study after a killed one wrote no $name"; done
   left=$(find "$work/study" -name '.*' ! -path "$work/study" | head -1)
   [ -z "$left" ] || fail "left over after the next study: $left"
