@@ -121,7 +121,7 @@ echo "renders: $renders runs, $killed killed before their end; no damaged file, 
 
 # Sets `command` to a study of so many seconds.
 study_of() {
-  command=("$causticl" study "$scene" --size 24x16 --knobs "max_depth,alpha" --seeds 1 --budget "$1" --quiet -o "$work/study")
+  command=("$causticl" study "$scene" --size 24x16 --knobs "max_depth,alpha" --seeds 2 --budget "$1" --quiet -o "$work/study")
 }
 
 check_study() {
@@ -134,13 +134,13 @@ check_study() {
 
 killed=0
 for ((i = 0; i < studies; ++i)); do
-  study_of 600
+  study_of 450
   if kill_after $((100 + 5900 * (i % 25) / 25)); then killed=$((killed + 1)); fi
   [ ! -d "$work/study" ] || check_study
   ((i % 25 == 24)) || continue
   make_old "$work/study" "$work/cache" "$work/tmp"
   # What the killed ones spent counts: a new budget is left for the rest.
-  study_of 60
+  study_of 45
   "${command[@]}" >"$work/said" 2>&1 || fail "the study after a killed one failed: $(cat "$work/said")"
   for name in study.csv study.html; do [ -s "$work/study/$name" ] || fail "the study after a killed one wrote no $name"; done
   left=$(find "$work/study" -name '.*' ! -path "$work/study" | head -1)
