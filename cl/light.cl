@@ -136,6 +136,7 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
   bool outside = HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE &&
                  centre_distance2 > radius * radius * (real)1.0002f;
   real x, y, z, distance, pdf, margin;  // scalars alone leave the branches: see vector.cl
+  bool edge_on = false;
   if (!outside) {
     real3 normal;
     real error, area_pdf;
@@ -148,8 +149,8 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
     // A ray to a light that is seen edge-on stops so short of it that a wall before the light may be missed. That light is
     // less than a millionth of what the light sends elsewhere, and is left out.
-    bool edge_on = cosine < (real)1e-3f && 4 * error > (real)0.01f * distance * cosine;
-    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0 && !edge_on;
+    edge_on = cosine < (real)1e-3f && 4 * error > (real)0.01f * distance * cosine;
+    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
     pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
     // An error of the surface's place moves the hit by 1 / cosine times as much.
     margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
@@ -168,7 +169,7 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     margin = (real)1e-5f * distance + radius * rounding / max(half_chord, rounding);
   }
   LightSample sample = {(real3)(x, y, z), distance, quotient3(radiance, pdf > 0 ? pdf : 1), pdf, margin};
-  sample.weight = choose3(pdf > 0, sample.weight, (real3)(0, 0, 0));
+  sample.weight = choose3(pdf > 0 && !edge_on, sample.weight, (real3)(0, 0, 0));
   return sample;
 }
 

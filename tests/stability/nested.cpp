@@ -79,7 +79,7 @@ CheckResult furnace(CheckContext& context) {
     scene.renderer.integrator = Integrator::pt;
     budget.apply(scene);
     const RenderResult rendered =
-        render_for(context, scene, "triangles,spheres,mirror,glass,shadow_rays,environment,nested");
+        render_for(context, scene, "triangles,spheres,mirror,glass,shadow_rays,environment,nested,walls");
     double sum = 0, squares = 0;
     for (const float value : rendered.picture.rgb) {
       sum += value - 1.0;

@@ -92,7 +92,7 @@ struct RenderBudget {
 inline RenderResult render_for(CheckContext& context, const Scene& scene,
                                const std::string& effects =
                                    "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,"
-                                   "environment,aimed_photons,smooth,needles") {
+                                   "environment,aimed_photons,smooth,needles,walls") {
   RenderOptions options;
   options.effects = effects;
   options.kernel_dir = context.kernel_dir;
