@@ -18,7 +18,7 @@ constexpr uint longest_side = 64;  // pixels of the coarse picture
 constexpr double worth_guiding = 1.0 / 16, worthwhile_gain = 2;
 
 // With fewer photons a pass than this, learning where they should start would take longer than the render.
-constexpr uint fewest_photons = 1 << 14;
+constexpr std::int64_t fewest_photons = 1 << 14;
 
 // The map is learned in steps, each by scouts that start by the last one, until so many are of use.
 constexpr std::uint32_t scouts = 1 << 15;
@@ -214,7 +214,7 @@ Pilot Sppm::run_pilot() {
   }
   if (!spec_.radius) choose_first_radius(points, params, pilot);
   const bool in_medium = params_.extinction.x > 0 || params_.extinction.y > 0 || params_.extinction.z > 0;
-  if (spec_.guided_photons || in_medium || params_.photon_count < fewest_photons) return pilot;
+  if (spec_.guided_photons || in_medium || spec_.photons < fewest_photons) return pilot;
   learn_emission(points, params, pilot);
   if (pilot.emission.empty() && !pilot.copies) return pilot;
   trace_photons(0);
