@@ -74,6 +74,29 @@ std::string stb_fault() {
 template <typename T>
 using StbLoader = T* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
 
+/// Throws with the reason why stb finds no picture. stbi_info() tries one format after another and keeps the
+/// reason of the last one; the decoder of the file's own format has the right one.
+[[noreturn]] void fail_stb_header(const std::string& bytes, const ImageLimits& limits) {
+  constexpr std::size_t header = 24;  // of a PNG, up to the end of its size
+  if (bytes.starts_with("\x89PNG") && bytes.size() >= header) {
+    const auto number = [&](std::size_t at) {
+      std::int64_t value = 0;
+      for (std::size_t i = at; i < at + 4; ++i) value = 256 * value + static_cast<unsigned char>(bytes[i]);
+      return value;
+    };
+    const std::int64_t width = number(16), height = number(20);
+    if (width == 0 || height == 0) throw std::runtime_error("0-pixel image");
+    check_image_cost(stb_cost(bytes, width, height), bytes.size(), limits);
+  }
+  StbSource source{bytes};
+  const stbi_io_callbacks io = StbSource::callbacks();
+  int width = 0, height = 0, channels = 0;
+  stb_forget_failure();
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_callbacks(&io, &source, &width, &height, &channels, 4), stbi_image_free);
+  throw std::runtime_error(stb_fault());
+}
+
 /// The size in the header. Throws where stb knows no such picture, or where decoding it would cost too much;
 /// returns what stb may allocate for it.
 std::uint64_t check_stb_header(const std::string& bytes, const ImageLimits& limits) {
@@ -83,8 +106,7 @@ std::uint64_t check_stb_header(const std::string& bytes, const ImageLimits& limi
   const stbi_io_callbacks io = StbSource::callbacks();
   int width = 0, height = 0, channels = 0;
   stb_forget_failure();
-  if (!stbi_info_from_callbacks(&io, &source, &width, &height, &channels))
-    throw std::runtime_error(stb_fault());
+  if (!stbi_info_from_callbacks(&io, &source, &width, &height, &channels)) fail_stb_header(bytes, limits);
   // The height of a BMP is negative where its top row comes first.
   const ImageCost cost = stb_cost(bytes, std::llabs(width), std::llabs(height));
   check_image_cost(cost, bytes.size(), limits);

@@ -41,7 +41,7 @@ inline constexpr BadScene bad_lights[] = {
      "\"lights\": [{\"type\": \"spot\", \"position\": [0, 1, 0], \"target\": [0, 0, 0], \"angle\": 20, "
      "\"blend\": 2, "
      "\"intensity\": [1, 1, 1]}]",
-     "scene.json:2: /lights/0/blend: expected a number from 0 to 1, got 2"},
+     "scene.json:2: /lights/0/blend: expected a number from 0 to 1, got 2; 2% is written 0.02"},
     {"directional light without direction", "\"width\": 64",
      "\"lights\": [{\"type\": \"directional\", \"direction\": [0, 0, 0], \"irradiance\": [1, 1, 1]}]",
      "scene.json:2: /lights/0/direction: expected a direction, got a vector of length 0"},

@@ -23,10 +23,9 @@ inline constexpr BadScene bad_objects[] = {
      "\"type\": \"rectangle\", \"transform\": [{\"x\": 1, \"y\": 0, \"z\": 0}]",
      "scene.json:7: /objects/0/transform/0/type: expected \"shift\", \"scale\", \"rotate\", \"rotateradian\" "
      "or \"matrix\", got nothing; the key is required"},
-    {"shift without z", "\"type\": \"rectangle\"",
-     "\"type\": \"rectangle\", \"transform\": [{\"type\": \"shift\", \"x\": 1, \"y\": 0}]",
-     "scene.json:7: /objects/0/transform/0/z: expected a number from -1e12 to 1e12, got nothing; the key is "
-     "required"},
+    {"shift by a text", "\"type\": \"rectangle\"",
+     "\"type\": \"rectangle\", \"transform\": [{\"type\": \"shift\", \"x\": 1, \"z\": \"far\"}]",
+     "scene.json:7: /objects/0/transform/0/z: expected a number from -1e12 to 1e12, got \"far\""},
     {"scale of 0", "\"type\": \"rectangle\"",
      "\"type\": \"rectangle\", \"transform\": [{\"type\": \"scale\", \"x\": 1, \"y\": 0, \"z\": 1}]",
      "scene.json:7: /objects/0/transform/0/y: expected a factor other than 0, got 0; a flat object cannot be "

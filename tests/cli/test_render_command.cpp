@@ -166,7 +166,7 @@ TEST_CASE("--effects compiles more and changes no byte, and refuses less than th
     return source.substr(0, source.find('\n'));
   };
   check_success(render("auto", "auto.pfm"));
-  check_success(render("triangles,shadow_rays,spheres", "more.pfm"));
+  check_success(render("triangles,shadow_rays,spheres,walls", "more.pfm"));
   CHECK(bytes_of(folder.path("more.pfm")) == bytes_of(folder.path("auto.pfm")));
   CHECK(defined("auto.pfm") == "#define EFFECTS 0x201u");
   CHECK(defined("more.pfm") == "#define EFFECTS 0x203u");

@@ -281,6 +281,7 @@ TEST_CASE("a scene's summary counts its objects and finds its emitters") {
   Scene scene = example_scene();
   scene.meshes.resize(1);
   scene.meshes[0].file = "bunny.obj";
+  scene.meshes[0].positions = {{1, 2, 3}};
   scene.meshes[0].position_index.resize(12);
   scene.objects = {object_at(Object::Shape::mesh, {}), object_at(Object::Shape::mesh, {}),
                    object_at(Object::Shape::plane, {}), object_at(Object::Shape::sphere, {1, 2, 3})};

@@ -104,7 +104,7 @@ TEST_CASE("a check that fails is named, with exit code 3 and an input that fails
 TEST_CASE("what selftest cannot do gets one line and exit code 2") {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--case", "99"}, "--case 99: no such check; expected a number from 1 to 24"},
+      {{"--case", "99"}, "--case 99: no such check; expected a number from 1 to 27"},
       {{"--case", "no check has this name"}, "no such check"},
       {{"--case", "24", "--replay", "1"}, "expected --case with the name of the one check"},
       {{"--case", "square root", "--replay", "1,2"},

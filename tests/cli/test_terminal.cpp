@@ -80,7 +80,7 @@ TEST_CASE("escapes in scenes, in names of files and in channels are harmless in 
       run_clean({command, folder.write("s" + escape + "\xff.json", text)}, folder);
     }
   CHECK_THAT(run_clean({"info", folder.write("scene.json", scenes[8])}, folder).errors,
-             Contains("nor one layer of them, but: ? ? ?"));
+             Contains("nor one layer of them, but: '?' '?' '?'"));
   for (const Words& words :
        {Words{escape}, Words{"render", "a.json", "--" + escape}, Words{"render", "a.json", "-D", escape},
         Words{"compare", escape + ".exr", "b"}, Words{"compare", "odd.exr", "odd.exr"},
