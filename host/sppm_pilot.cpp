@@ -132,7 +132,9 @@ void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot&
   };
   const Grid cells{
       {low(0), low(1), low(2), static_cast<float>(1 / cell)}, marked_across, marked_across, marked_across, 0};
-  const cl::Buffer marks = device_.buffer((buckets_of(cells) + 3) / 4 * sizeof(cl_uint), "marked cells");
+  const std::size_t bytes = (buckets_of(cells) + 3) / 4 * sizeof(cl_uint);
+  if (bytes > device_.info().largest_allocation) return;  // a device this small renders without a map
+  const cl::Buffer marks = device_.buffer(bytes, "marked cells");
   device_.clear(marks, marks.getInfo<CL_MEM_SIZE>());
   cl::Kernel mark = programs_.kernel("gather", "mark_in_view");
   set_arguments(mark, points, marks, cells, static_cast<cl_float>(0.49 * cell),

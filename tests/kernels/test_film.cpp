@@ -197,6 +197,7 @@ TEST_CASE("spread and blur are as relative to light of any brightness, and after
   auto program = build_test_program(R"(
 #include "film.cl"
 kernel void go_on(global FilmPixel *film, volatile global Counters *counters, uint first, uint passes) {
+  if (get_global_id(0) != 0) return;  // more items may run than were asked for
   for (uint n = first; n < first + passes; ++n) film_add(film, (real3)(2 * (n & 1u)), 2 * (n & 1u), n, counters);
 }
 )");

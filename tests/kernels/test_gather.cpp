@@ -307,7 +307,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
       wrong += out[first + i].blur[1] != 0 || out[first + i].spread != 0;
       const SppmPixel& pixel = after[first + i];
       if (shared_radius2 > 0) {
-        wrong += pixel.radius2_hi != 0.01f || pixel.photons_low != 0;
+        wrong += pixel.radius2_hi != 0.01f || pixel.photons_low != count;
       } else {
         wrong += pixel.photons_low != count;
         const double expected = 0.01f * (count ? 0.7 : 1);

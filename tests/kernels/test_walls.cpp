@@ -155,7 +155,7 @@ TEST_CASE("the walls that a cell lists part what all surfaces part") {
     }
     CHECK(parted > count / 100);
     CHECK(invented == 0);
-    CHECK(missed <= parted / 500);  // surface that ends less than a thousandth of the radius behind another
+    CHECK(missed <= parted / 300);  // surface that ends less than a thousandth of the radius behind another
   }
 }
 

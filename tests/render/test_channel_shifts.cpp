@@ -17,7 +17,7 @@ Scene lit_by(const std::vector<std::string>& emissions) {
     lamps += R"(, {"type": "sphere", "radius": 1,
       "material": {"type": "diffuse", "color": [0, 0, 0], "emission": )" +
              emissions[i] + R"(}, "transform": [{"type": "shift", "x": -3, "y": )" +
-             std::to_string(2 - 3 * i) + R"(, "z": 2}]})";
+             std::to_string(2 - 3 * static_cast<int>(i)) + R"(, "z": 2}]})";
   return scene_from_text(R"({
     "width": 8, "height": 8, "max_depth": 6,
     "renderer": {"type": "sppm", "photon_sample": 20000, "radius": 0.3},
