@@ -66,7 +66,8 @@ TEST_CASE("a bright lamp in the next room changes nothing here") {
   // What a pixel divides by is of the floor on this side alone: the foot of the wall is as bright as path
   // tracing has it.
   const Scene scene = rooms(walls[1], 1, 100);
-  const auto traced = render_with(scene, Integrator::pt, 1024).picture;
+  // The lamp beyond the wall adds nothing, and takes nearly all light samples: the reference does without it.
+  const auto traced = render_with(rooms(walls[1], 1, 0), Integrator::pt, 1024).picture;
   const auto mapped = render_with(scene, Integrator::sppm, 48).picture;
   CHECK(mean_luminance(mapped) == Approx(mean_luminance(traced)).epsilon(0.01));
 }
