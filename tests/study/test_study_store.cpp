@@ -88,7 +88,7 @@ TEST_CASE("what is no study is refused") {
   const TemporaryFolder folder;
   const std::string whole = study_json(made_study());
   for (const std::string& text :
-       {std::string(), std::string("[]"), whole.substr(0, whole.size() / 2), std::string("{\"scene\": 3}")}) {
+       {std::string("[]"), whole.substr(0, whole.size() / 2), std::string("{\"scene\": 3}")}) {
     folder.write("study.json", text);
     CHECK_THAT(user_error_of([&] { read_study(folder.path("")); }),
                Contains("study.json: not a study that this version wrote") && Contains("--restart"));
