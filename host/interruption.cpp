@@ -12,6 +12,13 @@ namespace {
 
 volatile sig_atomic_t requested = 0, silent = 0;
 
+/// Whether the process was started to ignore SIGHUP, as nohup(1) does. Asked before a driver can install a
+/// handler of its own.
+const bool hangup_ignored = [] {
+  struct sigaction inherited {};
+  return sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler == SIG_IGN;
+}();
+
 void remember(int signal_number) {
   const int previous_errno = errno;
   // A terminal that goes away hangs up twice: itself, and through its shell. The picture is still to be
@@ -41,9 +48,10 @@ void interruption_listen(bool quiet) {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  struct sigaction inherited {};
-  sigaction(SIGHUP, nullptr, &inherited);
-  if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup(1) lets it be ignored
+  if (hangup_ignored)
+    signal(SIGHUP, SIG_IGN);
+  else
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 bool interruption_requested() { return requested != 0; }

@@ -69,5 +69,6 @@ TEST_CASE("a bright lamp in the next room changes nothing here") {
   // The lamp beyond the wall adds nothing, and takes nearly all light samples: the reference does without it.
   const auto traced = render_with(rooms(walls[1], 1, 0), Integrator::pt, 1024).picture;
   const auto mapped = render_with(scene, Integrator::sppm, 48).picture;
-  CHECK(mean_luminance(mapped) == Approx(mean_luminance(traced)).epsilon(0.01));
+  // One photon in a hundred is of the lamp on this side: the noise of the mean is about 2%.
+  CHECK(mean_luminance(mapped) == Approx(mean_luminance(traced)).epsilon(0.06));
 }

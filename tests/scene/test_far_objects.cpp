@@ -184,7 +184,8 @@ TEST_CASE("(u, v) far from 0 keep the place within the repeat, for every scale o
                            texture + ", \"scale\": " + scale + "}}}");
         const auto factors = scene.textures[0].scale;
         std::vector<double> places;  // within two repeats
-        for (const auto& uv : build_world(scene).attributes[0].uv)
+        const World world = build_world(scene);
+        for (const auto& uv : world.attributes[0].uv)
           for (const double value : {uv.x * factors[0], uv.y * factors[1]})
             places.push_back(value - 2 * std::floor(value / 2));
         return places;
