@@ -140,9 +140,8 @@ OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count,
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
       PhotonState photon = wave_get(wave, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      uint faults = 0;
-      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record, &faults);
-      if (HAS(EFFECT_NESTED)) count_faults(faults, counters);
+      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
+      if (HAS(EFFECT_NESTED)) count_faults(photon.faults, counters);
       wave_put(wave, i, &photon);
       wave_put_record(wave, i, &record);
     }

@@ -69,10 +69,9 @@ INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 d
 }
 
 // Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
-// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit. Adds to
-// *faults.
+// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
 INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
-                         PhotonState *photon, Photon *record, uint *faults) {
+                         PhotonState *photon, Photon *record) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
   if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
@@ -83,7 +82,7 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
   Interface interface;
   if (nested(scene)) {
-    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, faults);
+    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, &photon->faults);
     photon->interior = interior_of_stack(scene, &interface.before);
   }
   global const Material *material = scene->materials + surface.material;

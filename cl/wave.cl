@@ -42,6 +42,9 @@ typedef struct {
   uint mark;  // INDIRECT_PHOTON, or 0
   Interior interior;
   PathMedia media;  // with EFFECT_NESTED
+  // FAULT_* of the present event, with EFFECT_NESTED. Here, since a variable of its own that the event is given a pointer to
+  // keeps the loop over events scalar.
+  uint faults;
 } PhotonState;
 
 typedef struct {
@@ -76,7 +79,7 @@ INLINE PhotonState wave_get(const Wave *wave, uint i) {
   photon.mark = wave->mark[i];
   photon.history = HAS(OUTPUT_LAYERS) ? wave->history[i] : HISTORY_STRAIGHT;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) photon.interior = wave->interior[i];
-  if (HAS(EFFECT_NESTED)) photon.media = wave->media[i];
+  if (HAS(EFFECT_NESTED)) photon.media = wave->media[i], photon.faults = 0;
   return photon;
 }
 
