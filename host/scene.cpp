@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "error.hpp"
+#include "flush_emitters.hpp"
 #include "object_triangles.hpp"
 #include "scene_loader.hpp"
 #include "scene_output.hpp"
@@ -176,6 +177,8 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   if (const auto lights = json.find("lights")) read_lights(*lights, loader);
   refuse_infinite_light(json, scene);
   warn_without_light(json, loader);
+  const auto lifted = lift_flush_emitters(scene);
+  if (!lifted.empty()) loader.notice(json, lifted[0] + (lifted.size() > 1 ? "; and others" : ""));
   return std::move(scene);
 }
 
