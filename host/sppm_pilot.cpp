@@ -34,6 +34,26 @@ constexpr std::uint32_t most_batches = 8;
 constexpr double marked_share = 1.0 / 24;
 constexpr uint marked_across = 128;  // cells: five times the room
 
+/// Which share of the photons that start by a map are of use.
+struct Useful {
+  double by_number = 0;
+  // The share of photons of equal flux whose sums vary as little: a map that its samples fit too well makes
+  // many photons useful that bring little, and leaves much flux to the few that start elsewhere (Kong's
+  // effective sample size).
+  double by_variance = 0;
+};
+
+Useful useful_by(const std::vector<EmissionCell>& map, const std::vector<StartNumbers>& useful,
+                 std::uint32_t traced) {
+  double sum = 0, squares = 0;
+  for (const auto& numbers : useful) {
+    const double flux = emission_share(map, numbers);
+    sum += flux;
+    squares += flux * flux;
+  }
+  return {static_cast<double>(useful.size()) / traced, squares > 0 ? sum * sum / squares / traced : 0};
+}
+
 /// Where a point of view lies; none where there is nothing.
 std::optional<Vec3> position_of(const std::byte* record, bool in_double) {
   const auto read = [&](std::size_t offset) {
@@ -153,10 +173,10 @@ void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot&
   if (pilot.useful >= worth_guiding) return;
 
   start_by({});
-  double plain = 0;
+  Useful plain, best;
   std::vector<EmissionCell> map;
   std::uint32_t batches = 0;  // of scouts so far
-  for (int step = 0; step < most_steps && pilot.useful_by_map < useful_enough; ++step) {
+  for (int step = 0; step < most_steps && best.by_number < useful_enough; ++step) {
     std::vector<StartNumbers> useful;
     std::uint32_t traced = 0;
     do {
@@ -164,17 +184,24 @@ void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot&
       useful.insert(useful.end(), more.begin(), more.end());
       traced += scouts;
     } while (useful.size() < fewest_useful && traced < most_batches * scouts);
-    pilot.useful_by_map = static_cast<double>(useful.size()) / traced;
-    if (step == 0) plain = pilot.useful_by_map;
-    if (useful.empty() || step + 1 == most_steps) break;
+    const Useful found = useful_by(map, useful, traced);
+    if (step == 0) plain = best = found;
+    if (found.by_variance > best.by_variance) {
+      best = found;
+      pilot.emission = map;
+    }
+    if (useful.empty()) break;
     map = emission_map(useful, traced, map);
     guide_.set_emission(map);
   }
-  pilot.useful = plain;
-  if (!(pilot.useful_by_map > worthwhile_gain * plain)) map.clear();
-  guide_.set_emission(map);
-  pilot.emission = map;
-  pilot.copies = plain > 0 && std::max(plain, pilot.useful_by_map) < worth_guiding;
+  pilot.useful = plain.by_number;
+  if (!(best.by_variance > worthwhile_gain * plain.by_variance)) {
+    best = plain;
+    pilot.emission.clear();
+  }
+  pilot.useful_by_map = best.by_number;
+  guide_.set_emission(pilot.emission);
+  pilot.copies = plain.by_number > 0 && best.by_number < worth_guiding;
   if (pilot.copies) guide_.guide();
 }
 

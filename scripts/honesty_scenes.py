@@ -80,7 +80,7 @@ def under_shade(opening):
     walls = [rectangle(side, side, turn('x', 90), shift(0, 1.5, 0))]
     for degree, x, z in ((0, 0, -side / 2), (180, 0, side / 2), (90, -side / 2, 0), (-90, side / 2, 0)):
         walls.append(rectangle(side, 0.5, turn('y', degree), shift(x, 1.25, z)))
-    for x in (-1, 1):
+    for x in (-1, 1) if strip > 0 else ():
         walls.append(rectangle(strip, side, turn('x', -90), shift(x * (side - strip) / 2, 1, 0)))
     return scene([*planes_room(), *walls, lamp(0.08, [0, 1.3, 0])])
 
