@@ -22,7 +22,7 @@ parser.add_argument('--short', action='store_true')
 parser.add_argument('--device', default='cpu')
 parser.add_argument('--samples', type=int)
 parser.add_argument('names', nargs='*')
-options = parser.parse_args()
+options = parser.parse_intermixed_args()
 samples = options.samples or (1024 if options.short else 16384)
 size = '12x9' if options.short else '24x18'
 
