@@ -1,7 +1,7 @@
-# Writes OUTPUT: a C++ source that holds every kernel file of DIR as a string, in name order.
-file(GLOB files RELATIVE ${DIR} ${DIR}/*.cl ${DIR}/*.h)
+# Writes OUTPUT: a C++ source that holds every kernel file of DIR as a string by its path there, in order.
+file(GLOB_RECURSE files RELATIVE ${DIR} ${DIR}/*.cl ${DIR}/*.h)
 list(SORT files)
-set(text "#include \"kernel_sources.hpp\"\n\nnamespace causticl {\n\nconst std::map<std::string, std::string>& embedded_kernel_sources() {\n  static const std::map<std::string, std::string> sources{\n")
+set(text "#include \"opencl/kernel_sources.hpp\"\n\nnamespace causticl {\n\nconst std::map<std::string, std::string>& embedded_kernel_sources() {\n  static const std::map<std::string, std::string> sources{\n")
 foreach(file ${files})
   file(READ ${DIR}/${file} body)
   string(APPEND text "      {\"${file}\", R\"__cl__(${body})__cl__\"},\n")

@@ -1,5 +1,5 @@
 # Writes OUTPUT: a C++ source that holds the parts of a study's page, from DIR, as strings.
-set(text "#include \"study_page.hpp\"\n\nnamespace causticl {\n\n")
+set(text "#include \"study/study_page.hpp\"\n\nnamespace causticl {\n\n")
 foreach(part html css plot.js js)
   file(READ ${DIR}/study_page.${part} body)
   string(REPLACE "." "_" name ${part})

@@ -4,21 +4,23 @@
 #include <new>
 #include <sstream>
 
-#include "channel_shifts.hpp"
-#include "compare.hpp"
-#include "console.hpp"
-#include "error.hpp"
-#include "explain.hpp"
-#include "interruption.hpp"
-#include "options.hpp"
-#include "output_file.hpp"
-#include "progress.hpp"
-#include "render_setup.hpp"
-#include "report.hpp"
-#include "scene_output.hpp"
-#include "selftest_processes.hpp"
-#include "stability_checks.hpp"
-#include "view_check.hpp"
+#include "accuracy/compare.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/render_setup.hpp"
+#include "app/report.hpp"
+#include "app/study_request.hpp"
+#include "base/console.hpp"
+#include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "base/output_file.hpp"
+#include "device_scene/channel_shifts.hpp"
+#include "format/load_scene.hpp"
+#include "format/scene_output.hpp"
+#include "render/explain.hpp"
+#include "selftest/selftest_processes.hpp"
+#include "selftest/stability_checks.hpp"
+#include "world/view_check.hpp"
 
 namespace {
 
@@ -171,7 +173,7 @@ int study(const Options& options) {
     if (!options.quiet) print_message(stderr, line);
   };
   KernelCache kernels(options.keep_kernels);
-  const StudyOutcome outcome = run_study(options, kernels, say, interruption_requested);
+  const StudyOutcome outcome = run_study(study_request(options), kernels, say, interruption_requested);
   report_notices(kernels, say);
   print_output(outcome.summary);
   return outcome.interrupted ? interrupted : done;

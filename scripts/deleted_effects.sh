@@ -22,7 +22,7 @@ causticl, passes, runs = root / 'build/causticl', 8, 7
 
 def absent_effects(scene):
     """EFFECT_* names of what the scene does not call for."""
-    bits = dict(re.findall(r'\{(EFFECT_\w+), "(\w+)"', (root / 'host/effects.cpp').read_text()))
+    bits = dict(re.findall(r'\{(EFFECT_\w+), "(\w+)"', (root / 'host/effects/effects.cpp').read_text()))
     subprocess.run([causticl, 'explain', scene, '--json', folder / 'effects.json'], check=True, stdout=subprocess.DEVNULL)
     called_for = {e['key'] for e in json.load(open(folder / 'effects.json'))['effects'] if e['called_for']}
     return [bit for bit, key in bits.items() if key not in called_for]

@@ -5,4 +5,4 @@ source "$(dirname "$0")/common.sh"
 
 set_up "${build_packages[@]}" "${lint_packages[@]}"
 build build causticl_host
-printf '%s\0' "$root"/host/*.cpp | xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p "$root/build"
+find "$root/host" -name '*.cpp' -print0 | xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p "$root/build"

@@ -9,7 +9,7 @@ set_up "${build_packages[@]}"
 build build causticl
 status=0
 table=$("$root/build/causticl" selftest "$@") || status=$?
-# The columns are those of selftest_line() in host/selftest.cpp.
+# The columns are those of selftest_line() in host/selftest/selftest.cpp.
 awk '
   function column(first, length_) { text = substr($0, first, length_); gsub(/^ +| +$/, "", text); return text }
   NR == 1 { print $0 "\n"; print "| case | check | inputs | failures | worst error | tolerance |\n|---|---|---|---|---|---|"; next }

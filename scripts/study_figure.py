@@ -8,7 +8,7 @@ import json
 import re
 import sys
 
-# The colours of the light theme of host/study_page.css.
+# The colours of the light theme of host/study/study_page.css.
 COLORS = {'grid': '#e1e0d9', 'muted': '#6f6e69', 'c1': '#2a78d6'}
 
 

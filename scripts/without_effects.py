@@ -95,7 +95,7 @@ def delete_functions(files):
 
 def main():
     folder, effects = pathlib.Path(sys.argv[1]), set(sys.argv[2:])
-    files = {path: path.read_text() for path in sorted(folder.glob('*.cl'))}
+    files = {path: path.read_text() for path in sorted(folder.rglob('*.cl'))}
     lines = sum(text.count('\n') for text in files.values())
     for path in files:
         files[path] = delete_conditions(without_comments(files[path]), effects)

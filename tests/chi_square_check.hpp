@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "chi_square.hpp"
+#include "selftest/chi_square.hpp"
 
 namespace causticl {
 

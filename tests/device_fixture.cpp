@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace causticl {
 

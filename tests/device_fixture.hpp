@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "device.hpp"
-#include "effects.h"
-#include "kernel_sources.hpp"
-#include "types.h"
+#include "opencl/device.hpp"
+#include "opencl/kernel_sources.hpp"
+#include "shared/effects.h"
+#include "shared/types.h"
 
 namespace causticl {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "device_fixture.hpp"
-#include "vectors.hpp"
+#include "selftest/vectors.hpp"
 
 namespace causticl {
 

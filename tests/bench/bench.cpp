@@ -4,10 +4,10 @@
 #include <fstream>
 #include <iostream>
 
+#include "base/error.hpp"
 #include "bench/bench_ceilings.hpp"
 #include "bench/bench_render.hpp"
 #include "bench/bench_traversal.hpp"
-#include "error.hpp"
 
 using namespace causticl;
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "device.hpp"
+#include "opencl/device.hpp"
 
 namespace causticl {
 

@@ -10,8 +10,9 @@
 #include <stdexcept>
 
 #include "bench/stopwatch.hpp"
-#include "meshes.hpp"
+#include "format/load_scene.hpp"
 #include "render/reference_comparison.hpp"
+#include "selftest/meshes.hpp"
 
 namespace causticl {
 namespace {

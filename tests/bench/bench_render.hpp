@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "device.hpp"
-#include "render.hpp"
+#include "opencl/device.hpp"
+#include "render/render.hpp"
 
 namespace causticl {
 

@@ -7,10 +7,10 @@
 
 #include "bench/bench_traversal_kernels.hpp"
 #include "bench/embree_reference.hpp"
-#include "effects.h"
-#include "kernel_sources.hpp"
-#include "mesh.hpp"
-#include "meshes.hpp"
+#include "mesh/mesh.hpp"
+#include "opencl/kernel_sources.hpp"
+#include "selftest/meshes.hpp"
+#include "shared/effects.h"
 
 namespace causticl {
 namespace {

@@ -5,9 +5,9 @@ namespace causticl {
 
 /// Rays are two float4: origin and t_max, direction. A result is a distance, or for "occluded" a flag.
 constexpr const char* bench_traversal_kernels = R"(
-#include "geometry.cl"
-#include "kdtree_packet.cl"
-#include "kdtree_wave.cl"
+#include "traversal/geometry.cl"
+#include "traversal/kdtree_packet.cl"
+#include "traversal/kdtree_stream.cl"
 INLINE Ray load_ray(global const float4 *rays, uint i) {
   Ray ray = {convert_real3(rays[2 * i].xyz), convert_real3(rays[2 * i + 1].xyz)};
   return ray;

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "base/task_pool.hpp"
 #include "bench/bench_traversal.hpp"
-#include "task_pool.hpp"
 
 namespace causticl {
 

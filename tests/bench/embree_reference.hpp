@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "accel/kdtree.hpp"
 #include "bench/stopwatch.hpp"
-#include "kdtree.hpp"
 
 namespace causticl {
 

@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "bad_scenes.hpp"
-#include "scene.hpp"
+#include "format/load_scene.hpp"
+#include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "image.hpp"
+#include "image/image.hpp"
 #include "process.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
 // Values as people write them.
 #include <catch2/catch.hpp>
 
-#include "option_values.hpp"
-#include "spelling.hpp"
+#include "base/spelling.hpp"
+#include "format/option_values.hpp"
 
 using namespace causticl;
 

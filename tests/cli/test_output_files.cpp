@@ -6,11 +6,11 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "console.hpp"
-#include "image.hpp"
-#include "output_file.hpp"
+#include "base/console.hpp"
+#include "base/output_file.hpp"
+#include "base/temporary_file.hpp"
+#include "image/image.hpp"
 #include "small_render.hpp"
-#include "temporary_file.hpp"
 
 using namespace causticl;
 using Catch::Contains;

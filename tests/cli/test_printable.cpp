@@ -1,7 +1,7 @@
 // What may reach a terminal of texts that come from files.
 #include <catch2/catch.hpp>
 
-#include "printable.hpp"
+#include "base/printable.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "image.hpp"
+#include "image/image.hpp"
 #include "small_render.hpp"
 
 using namespace causticl;

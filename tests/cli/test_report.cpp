@@ -6,10 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "options.hpp"
-#include "progress.hpp"
-#include "render_setup.hpp"
-#include "report.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/render_setup.hpp"
+#include "app/report.hpp"
 
 using namespace causticl;
 using Catch::Contains;

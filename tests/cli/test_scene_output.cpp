@@ -5,9 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "asset_file.hpp"
-#include "image.hpp"
-#include "scene_output.hpp"
+#include "format/asset_file.hpp"
+#include "format/load_scene.hpp"
+#include "format/scene_output.hpp"
+#include "image/image.hpp"
 #include "small_render.hpp"
 
 using namespace causticl;

@@ -31,7 +31,7 @@ std::string text_of(const std::string& file) {
 std::string mutated_kernels(const TemporaryFolder& folder, const std::string& file, const std::string& from,
                             const std::string& to) {
   const std::string copy = folder.path("cl");
-  std::filesystem::copy(CAUSTICL_SOURCE_DIR "/cl", copy);
+  std::filesystem::copy(CAUSTICL_SOURCE_DIR "/cl", copy, std::filesystem::copy_options::recursive);
   std::string text = text_of(copy + "/" + file);
   const auto at = text.find(from);
   REQUIRE(at != text.npos);
@@ -82,7 +82,7 @@ TEST_CASE("several processes find what one finds, in the same order") {
 
 TEST_CASE("a check that fails is named, with exit code 3 and an input that fails again") {
   const TemporaryFolder folder;
-  const std::string kernels = mutated_kernels(folder, "prelude.cl", "FP_CONTRACT OFF", "FP_CONTRACT ON");
+  const std::string kernels = mutated_kernels(folder, "core/prelude.cl", "FP_CONTRACT OFF", "FP_CONTRACT ON");
   const std::vector<std::string> one{"--case", "products and sums", "--kernel-dir", kernels};
   auto words = one;
   words.insert(words.end(), {"--inputs", "1000"});

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "image.hpp"
+#include "base/temporary_file.hpp"
+#include "image/image.hpp"
 #include "small_render.hpp"
-#include "temporary_file.hpp"
 
 using namespace causticl;
 using Catch::Contains;

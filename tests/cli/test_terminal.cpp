@@ -1,8 +1,8 @@
 // Nothing that a file holds or is called reaches the terminal as a control character.
 #include <catch2/catch.hpp>
 
-#include "image.hpp"
-#include "printable.hpp"
+#include "base/printable.hpp"
+#include "image/image.hpp"
 #include "small_render.hpp"
 
 using namespace causticl;

@@ -3,11 +3,11 @@
 // there.
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
-#include "effects.hpp"
-#include "error.hpp"
-#include "kernels.hpp"
+#include "effects/effects.hpp"
+#include "opencl/kernels.hpp"
 #include "render/render_fixture.hpp"
 
 using namespace causticl;
@@ -32,8 +32,8 @@ std::string poisoned(std::string source, unsigned effect) {
 /// Whether the program of `pass` for the scene holds code of the effect.
 bool holds(const std::string& scene, const std::string& pass, unsigned effect) {
   const unsigned bits = effect_bits(find_effects(scene_from_text(scene))) & effects_of_pass(pass);
-  const std::string source =
-      "#define EFFECTS " + std::to_string(bits) + "u\n" + flatten_kernel_source("pass_" + pass + ".cl");
+  const std::string source = "#define EFFECTS " + std::to_string(bits) + "u\n" +
+                             flatten_kernel_source("passes/pass_" + pass + ".cl");
   try {
     test_device().build(poisoned(source, effect));
     return false;

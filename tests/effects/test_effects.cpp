@@ -5,12 +5,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
-#include "effects.h"
-#include "effects.hpp"
-#include "error.hpp"
+#include "effects/effects.hpp"
 #include "render/render_fixture.hpp"
+#include "shared/effects.h"
 
 using namespace causticl;
 using Catch::Contains;

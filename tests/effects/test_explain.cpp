@@ -1,13 +1,13 @@
 // `causticl explain`: every effect in one table, with what it costs where that is measured.
-#include "explain.hpp"
+#include "render/explain.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
-#include "effects.h"
 #include "render/render_fixture.hpp"
+#include "shared/effects.h"
 
 using namespace causticl;
 using Catch::Contains;

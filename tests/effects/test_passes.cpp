@@ -5,7 +5,7 @@
 
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
-#include "passes.hpp"
+#include "effects/passes.hpp"
 #include "render/render_fixture.hpp"
 #include "temporary_folder.hpp"
 

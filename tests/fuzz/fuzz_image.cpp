@@ -1,8 +1,8 @@
 #include <cstring>
 
 #include "fuzz_input.hpp"
-#include "image.hpp"
-#include "image_formats.hpp"
+#include "image/image.hpp"
+#include "image/image_formats.hpp"
 
 namespace causticl {
 namespace {

@@ -1,6 +1,6 @@
 #include "fuzz_input.hpp"
 
-#include "printable.hpp"
+#include "base/printable.hpp"
 
 namespace causticl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "fuzz_targets.hpp"
 #include "temporary_folder.hpp"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "fuzz_input.hpp"
-#include "kernel_entry.hpp"
-#include "kernel_store.hpp"
+#include "opencl/kernel_entry.hpp"
+#include "opencl/kernel_store.hpp"
 
 namespace causticl {
 namespace {

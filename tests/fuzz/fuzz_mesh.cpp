@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "fuzz_input.hpp"
-#include "mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace causticl {
 namespace {

@@ -1,11 +1,12 @@
 #include <sstream>
 
+#include "accel/kdtree.hpp"
+#include "app/report.hpp"
+#include "base/printable.hpp"
+#include "format/load_scene.hpp"
 #include "fuzz_input.hpp"
-#include "kdtree.hpp"
-#include "printable.hpp"
-#include "report.hpp"
-#include "scene.hpp"
-#include "world.hpp"
+#include "scene/scene.hpp"
+#include "world/flat_scene.hpp"
 
 namespace causticl {
 namespace {

@@ -1,11 +1,11 @@
 // The study.json that a study goes on from.
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "fuzz_input.hpp"
-#include "printable.hpp"
-#include "study_analysis.hpp"
-#include "study_page.hpp"
-#include "study_store.hpp"
+#include "study/study_analysis.hpp"
+#include "study/study_page.hpp"
+#include "study/study_store.hpp"
 
 namespace causticl {
 

@@ -1,8 +1,8 @@
-// Runs cl/shape.cl on rays chosen by a test.
+// Runs cl/shapes/shape.cl on rays chosen by a test.
 #pragma once
 
 #include "device_fixture.hpp"
-#include "shape_inputs.hpp"
+#include "selftest/shape_inputs.hpp"
 
 namespace causticl {
 
@@ -40,7 +40,7 @@ class ShapeScene {
 
  private:
   static constexpr const char* source = R"(
-#include "shape.cl"
+#include "shapes/shape.cl"
 kernel void trace(global const Shape *shapes, global const float *curves, global const float4 *rays,
                   global const float4 *spawned, global float4 *results, uint count) {
   uint i = get_global_id(0);

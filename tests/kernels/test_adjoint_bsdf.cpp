@@ -9,7 +9,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "adjoint_bsdf.cl"
+#include "materials/adjoint_bsdf.cl"
 typedef struct {
   float4 direction;  // of the photon; w: index of refraction
   float4 shading, random;  // the geometric normal is z

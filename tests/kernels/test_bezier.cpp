@@ -1,12 +1,12 @@
 #include <numbers>
 
-#include "curve_inputs.hpp"
-#include "curve_oracle.hpp"
+#include "selftest/curve_inputs.hpp"
+#include "selftest/curve_oracle.hpp"
 #include "shape_fixture.hpp"
 
 using namespace causticl;
 
-// First hits, and photons inside closed surfaces: tests/stability/bezier.cpp.
+// First hits, and photons inside closed surfaces: host/selftest/bezier.cpp.
 
 namespace {
 
@@ -57,7 +57,7 @@ TEST_CASE("bezier: spawned rays do not meet their own surface, over scales 1e-8 
 TEST_CASE("bezier: bezier_point lies on the surface, and its area element integrates to the area table's") {
   RandomInputs random(405);
   auto program = build_test_program(R"(
-#include "shape.cl"
+#include "shapes/shape.cl"
 kernel void points(global const Shape *shapes, global const float *curves, global const float4 *uv,
                    global float4 *out, uint count) {
   uint i = get_global_id(0);

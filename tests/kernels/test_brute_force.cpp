@@ -10,8 +10,8 @@ namespace {
 
 // As "closest" of traversal_kernels.hpp, by 32 rays an item, of which the last may have fewer. Arrays have
 // NaN where there is no ray.
-const std::string kernels = "#include \"shape.cl\"\n" + std::string(traversal_kernels) + R"(
-#include "brute_force.cl"
+const std::string kernels = "#include \"shapes/shape.cl\"\n" + std::string(traversal_kernels) + R"(
+#include "traversal/brute_force.cl"
 #define RAYS 32u
 kernel void packets(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                      global const float4 *rays, global float4 *hits, uint count, uint first_shape, global uint *cut_short,

@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "bsdf.cl"
+#include "materials/bsdf.cl"
 kernel void fresnel(global const float2 *in, global float2 *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;

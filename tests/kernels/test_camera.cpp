@@ -1,5 +1,5 @@
 #include "chi_square_check.hpp"
-#include "effects.h"
+#include "shared/effects.h"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -7,7 +7,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "camera.cl"
+#include "paths/camera.cl"
 kernel void rays(global const float4 *uniform, global float4 *origins, global float4 *directions, uint count,
                  Camera camera, uint width, uint height) {
   uint i = get_global_id(0);

@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "delta_light.cl"
+#include "lights/delta_light.cl"
 kernel void falloff(global const float4 *in, global float *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;

@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "dispersion.cl"
+#include "materials/dispersion.cl"
 typedef struct {
   float4 carried;      // w: random number
   float4 wavelength2;  // 1 / wavelength^2 of each channel; w: A

@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "device_fixture.hpp"
-#include "emission_map.hpp"
+#include "photons/emission_map.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const source = R"(
-#include "rng.cl"
-#include "emission_map.cl"
+#include "sampling/rng.cl"
+#include "photons/emission_map.cl"
 kernel void draw(global const EmissionCell *cells, uint count, global float *numbers, global float *shares, uint seed,
                  uint draws) {
   uint i = get_global_id(0);

@@ -1,13 +1,13 @@
 #include "chi_square_check.hpp"
-#include "environment.hpp"
 #include "vector_inputs.hpp"
+#include "world/environment.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const source = R"(
-#include "environment.cl"
+#include "lights/environment.cl"
 kernel void place(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;

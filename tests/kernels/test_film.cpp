@@ -9,7 +9,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "film.cl"
+#include "film/film.cl"
 // Each work-item adds `count` numbers of a linear congruential sequence, each an integer over 2^24.
 kernel void sum_many(global float2 *sums, uint items, uint count, uint mask) {
   uint i = get_global_id(0);
@@ -195,7 +195,7 @@ TEST_CASE("spread and blur are as relative to light of any brightness, and after
   // Estimates of 0 and 2 in turn: mean 1, deviation 1. A sum of squares in a float would have stopped
   // growing.
   auto program = build_test_program(R"(
-#include "film.cl"
+#include "film/film.cl"
 kernel void go_on(global FilmPixel *film, volatile global Counters *counters, uint first, uint passes) {
   if (get_global_id(0) != 0) return;  // more items may run than were asked for
   for (uint n = first; n < first + passes; ++n) film_add(film, (real3)(2 * (n & 1u)), 2 * (n & 1u), n, counters);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "error_estimate.hpp"
-#include "film.hpp"
+#include "accuracy/error_estimate.hpp"
+#include "integrators/film.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -14,7 +14,7 @@ namespace {
 
 std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint width, uint passes,
                                       uint stride, bool even = false) {
-  auto program = build_test_program("#include \"pass_film.cl\"\n");
+  auto program = build_test_program("#include \"passes/pass_film.cl\"\n");
   auto pixels = test_device().upload(film, "film");
   const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
   auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
@@ -89,7 +89,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
 /// it (y).
 std::vector<FilmPixel> film_of(const std::vector<float2>& samples, uint passes) {
   auto program = build_test_program(R"(
-#include "film.cl"
+#include "film/film.cl"
 kernel void add_samples(global const float2 *samples, global FilmPixel *film, volatile global Counters *counters,
                         uint pixels, uint passes) {
   uint i = get_global_id(0);

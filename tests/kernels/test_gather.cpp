@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "photon_grid.hpp"
+#include "selftest/photon_grid.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -128,7 +128,7 @@ TEST_CASE("the gather equals brute force exactly for every table, radius and pla
 
 TEST_CASE("sides are told apart alike by floats, by bytes where the device has that, and exactly") {
   auto sides = build_test_program(R"(
-#include "gather.cl"
+#include "photons/gather.cl"
 kernel void sides(global const uint *photons, global const uint *points, global uint2 *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;

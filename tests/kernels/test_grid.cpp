@@ -1,7 +1,7 @@
 #include <array>
 #include <cstring>
 
-#include "photon_grid.hpp"
+#include "selftest/photon_grid.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -9,7 +9,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "pass_grid.cl"
+#include "passes/pass_grid.cl"
 kernel void normals(global const float4 *in, global uint *packed, global float4 *unpacked, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;

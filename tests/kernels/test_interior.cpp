@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "interior.cl"
+#include "media/interior.cl"
 typedef struct {
   float4 direction;   // w: the material's kind
   float4 normal;      // w: whether the path is inside glass so far

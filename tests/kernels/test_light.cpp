@@ -1,5 +1,5 @@
 #include "chi_square_check.hpp"
-#include "upload.hpp"
+#include "device_scene/device_scene.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -7,7 +7,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "pass_photon.cl"
+#include "passes/pass_photon.cl"
 kernel void choose(SCENE_PARAMETERS, global const float4 *uniform, global uint *out, uint count, Params params) {
   uint i = get_global_id(0);
   if (i >= count) return;

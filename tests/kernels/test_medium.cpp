@@ -1,6 +1,6 @@
 // The medium: phase function, free flight, and photons gathered in a volume.
 #include "chi_square_check.hpp"
-#include "photon_grid.hpp"
+#include "selftest/photon_grid.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -8,8 +8,8 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "gather.cl"
-#include "pass_grid.cl"
+#include "photons/gather.cl"
+#include "passes/pass_grid.cl"
 // x: g, y: cosine, out: density.
 kernel void phase(global const float2 *in, global float *out, uint count) {
   uint i = get_global_id(0);

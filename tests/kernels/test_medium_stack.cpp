@@ -8,7 +8,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "medium_stack.cl"
+#include "media/medium_stack.cl"
 // Each of `steps` numbers: 2 m enters material m, 2 m + 1 leaves it. Results by step: the material that fills the place,
 // how many bodies hold it, whether the material of the step is one of them, and the faults so far.
 kernel void run(global const uint *steps, global uint4 *out, uint sequences, uint length) {

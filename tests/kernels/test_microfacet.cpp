@@ -1,7 +1,7 @@
 #include <array>
 
 #include "chi_square_check.hpp"
-#include "stability/rough_lobe_oracle.hpp"
+#include "selftest/rough_lobe_oracle.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -9,7 +9,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "bsdf.cl"
+#include "materials/bsdf.cl"
 typedef struct {
   float4 arriving;  // w: alpha
   float4 leaving;   // w: ior

@@ -1,16 +1,16 @@
 // Which dielectrics hold a point, and what a path meets where surfaces lie at one place.
-#include "body.hpp"
 #include "device_fixture.hpp"
-#include "params.hpp"
+#include "device_scene/device_scene.hpp"
+#include "device_scene/params.hpp"
 #include "render/render_fixture.hpp"
-#include "upload.hpp"
+#include "scene/body.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const source = R"(
-#include "path_media.cl"
+#include "scene/path_media.cl"
 kernel void around(SCENE_PARAMETERS, global const float4 *points, global uint4 *out, uint count, Params params) {
   uint i = get_global_id(0);
   if (i >= count) return;

@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "device_fixture.hpp"
-#include "effects.hpp"
-#include "params.hpp"
-#include "photon_map.hpp"
+#include "device_scene/params.hpp"
+#include "effects/effects.hpp"
+#include "photons/photon_map.hpp"
 #include "render/render_fixture.hpp"
 
 using namespace causticl;

@@ -7,7 +7,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "rng.cl"
+#include "sampling/rng.cl"
 kernel void draw(global uint4 *bits, global float4 *numbers, uint count, uint4 first) {
   uint i = get_global_id(0);
   if (i >= count) return;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "device_fixture.hpp"
-#include "dims.h"
+#include "shared/dims.h"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -15,7 +15,7 @@ struct Path {
 };
 
 const char* const source = R"(
-#include "sobol.cl"
+#include "sampling/sobol.cl"
 typedef struct { uint pass, pixel, sample, samples, dimension, seed, sobol; } Path;
 kernel void draw(global const Path *paths, global float4 *numbers, global float4 *parts, global float4 *independent,
                  global uint4 *hashes, uint count) {

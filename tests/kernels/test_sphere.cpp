@@ -1,5 +1,5 @@
+#include "selftest/sphere_oracle.hpp"
 #include "shape_fixture.hpp"
-#include "sphere_oracle.hpp"
 
 using namespace causticl;
 

@@ -8,7 +8,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "sppm.cl"
+#include "photons/sppm.cl"
 // `passes` updates of each pixel. Photons found in a pass: from a linear congruential sequence, shifted right by
 // item % 32 bits, and none at all in about a quarter of the passes.
 kernel void update_many(global SppmPixel *pixels, uint items, uint passes, float alpha) {

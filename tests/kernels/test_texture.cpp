@@ -5,7 +5,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "bsdf.cl"
+#include "materials/bsdf.cl"
 kernel void lookup(global const Texture *textures, global const half *texels, global const float2 *uv,
                    global float4 *out, uint count, uint which) {
   uint i = get_global_id(0);

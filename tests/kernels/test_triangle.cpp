@@ -4,15 +4,15 @@
 
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"
-#include "meshes.hpp"
-#include "triangle_pairs.hpp"
+#include "selftest/meshes.hpp"
+#include "selftest/triangle_pairs.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const triangle_kernels = R"(
-#include "triangle.cl"
+#include "shapes/triangle.cl"
 // One ray a block: distances (INFINITY for a miss) and the weights of vertices 1 and 2 of its eight triangles.
 kernel void intersect(global const TriangleBlock *blocks, global const float4 *rays, global float8 *out, uint count) {
   uint i = get_global_id(0);

@@ -180,7 +180,8 @@ const std::vector<Field> fields{
 
 TEST_CASE("shared structs have the same layout on the host and on the device") {
   std::string text =
-      "#include \"types.h\"\nkernel void offsets(global uint *out) {\n  if (get_global_id(0) != 0) return;\n";
+      "#include \"shared/types.h\"\nkernel void offsets(global uint *out) {\n  if (get_global_id(0) != 0) "
+      "return;\n";
   for (std::size_t i = 0; i < fields.size(); ++i)
     text += "  { global " + std::string(fields[i].type) + " *p = 0; out[" + std::to_string(i) +
             "] = (uint)(size_t)&p->" + fields[i].name + "; }\n";

@@ -12,7 +12,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "unknown_error.cl"
+#include "photons/unknown_error.cl"
 kernel void pack(global const float4 *normals, global uint *packed, uint count) {
   uint i = get_global_id(0);
   if (i < count) packed[i] = normal_pack(normals[i].xyz);

@@ -2,17 +2,17 @@
 #include <algorithm>
 #include <cstring>
 
+#include "device_scene/wall_primitives.hpp"
+#include "device_scene/walls.hpp"
 #include "render/render_fixture.hpp"
 #include "vector_inputs.hpp"
-#include "wall_primitives.hpp"
-#include "walls.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const source = R"(
-#include "walls.cl"
+#include "photons/walls.cl"
 kernel void part(global const float4 *points, global const float4 *photons, global const float4 *normals,
                  global const WallGrid *grid, global uint *out, uint count, float radius) {
   uint i = get_global_id(0);

@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "warp.cl"
+#include "sampling/warp.cl"
 #define COSINE 0
 #define SPHERE 1
 #define CONE 2

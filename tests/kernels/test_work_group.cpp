@@ -1,5 +1,5 @@
 #include "device_fixture.hpp"
-#include "integrator.hpp"
+#include "integrators/integrator.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -7,7 +7,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "work_group.cl"
+#include "core/work_group.cl"
 kernel void sum_and_reserve(global const uint *counts, volatile global Counters *counters, global uint *owners,
                             uint count) {
   local uint values[LARGEST_WORK_GROUP];
@@ -47,7 +47,7 @@ TEST_CASE("work-groups of any size count all, and each place of a list is reserv
 
 TEST_CASE("rays of a pass are counted beyond 32 bits") {
   static cl::Program program = build_test_program(R"(
-#include "work_group.cl"
+#include "core/work_group.cl"
 kernel void count_many(global const uint *rays, volatile global Counters *counters, uint count) {
   uint i = get_global_id(0);
   if (i < count) count_rays(rays[i], counters);

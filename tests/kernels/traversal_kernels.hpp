@@ -5,8 +5,8 @@ namespace causticl {
 
 /// Spheres by a textbook test: what the tree does with shapes does not depend on how they are met.
 constexpr const char* sphere_stand_in = R"(
-#include "ray.cl"
-#include "types.h"
+#include "shapes/ray.cl"
+#include "shared/types.h"
 INLINE bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit) {
   real3 o = ray.origin - shape->sphere.xyz;
   real b = dot(o, ray.direction);
@@ -30,7 +30,7 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
 /// Rays are two float4: origin and t_max, direction. A result is (t, weights, primitive of the scene as
 /// bits).
 constexpr const char* traversal_kernels = R"(
-#include "kdtree_packet.cl"
+#include "traversal/kdtree_packet.cl"
 INLINE Ray load_ray(global const float4 *rays, uint i) {
   Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
   return ray;

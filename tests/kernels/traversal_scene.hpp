@@ -8,9 +8,9 @@
 
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"
-#include "mesh_set.hpp"
-#include "meshes.hpp"
-#include "shape_inputs.hpp"
+#include "selftest/mesh_set.hpp"
+#include "selftest/meshes.hpp"
+#include "selftest/shape_inputs.hpp"
 
 namespace causticl {
 

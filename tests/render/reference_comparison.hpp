@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "image.hpp"
+#include "image/image.hpp"
 
 namespace causticl {
 

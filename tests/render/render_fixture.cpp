@@ -1,4 +1,5 @@
 #include "render_fixture.hpp"
+#include "format/load_scene.hpp"
 
 #include <unistd.h>
 
@@ -8,7 +9,7 @@
 #include <fstream>
 
 #include "device_fixture.hpp"
-#include "luminance.hpp"
+#include "image/luminance.hpp"
 
 namespace causticl {
 

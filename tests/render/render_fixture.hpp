@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "compare.hpp"
-#include "image.hpp"
-#include "render.hpp"
-#include "scene.hpp"
+#include "accuracy/compare.hpp"
+#include "image/image.hpp"
+#include "render/render.hpp"
+#include "scene/scene.hpp"
 
 namespace causticl {
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "format/load_scene.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

@@ -1,5 +1,5 @@
 // Lamps whose colour channels differ by many powers of ten keep each channel in SPPM.
-#include "channel_shifts.hpp"
+#include "device_scene/channel_shifts.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdio>

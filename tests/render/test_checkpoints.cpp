@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "checkpoints.hpp"
+#include "render/checkpoints.hpp"
 
 using namespace causticl;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "error_estimate.hpp"
+#include "accuracy/error_estimate.hpp"
 
 using namespace causticl;
 

@@ -10,8 +10,7 @@ namespace {
 /// A room of planes with a lamp at this height; the ceiling is at 2.7.
 Scene room(const std::string& lamp, double height, const std::string& ceiling) {
   const std::string at = R"({"type": "shift", "x": 0.1, "y": )" + std::to_string(height) + R"(, "z": 0.2}])";
-  const std::string shape = lamp == "disk" ? R"("type": "disk", "radius": 0.5)"
-                                           : R"("type": "rectangle")";
+  const std::string shape = lamp == "disk" ? R"("type": "disk", "radius": 0.5)" : R"("type": "rectangle")";
   return scene_from_text(R"({"width": 16, "height": 12, "max_depth": 8,
     "renderer": {"type": "sppm", "photon_sample": 100000},
     "camera": {"position": [0, 1.2, 3.5], "target": [0, 1.5, 0], "fov": 60},

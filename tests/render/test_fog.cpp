@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/report.hpp"
 #include "render_fixture.hpp"
-#include "report.hpp"
 
 using namespace causticl;
 

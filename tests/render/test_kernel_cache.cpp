@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "device_fixture.hpp"
-#include "kernel_cache.hpp"
+#include "opencl/kernel_cache.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "app/report.hpp"
 #include "device_fixture.hpp"
-#include "motion.hpp"
+#include "device_scene/motion.hpp"
 #include "render_fixture.hpp"
-#include "report.hpp"
 
 using namespace causticl;
 

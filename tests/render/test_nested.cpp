@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "dielectrics.hpp"
 #include "render_fixture.hpp"
+#include "scene/dielectrics.hpp"
 
 using namespace causticl;
 

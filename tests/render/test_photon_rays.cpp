@@ -3,8 +3,9 @@
 #include <filesystem>
 
 #include "device_fixture.hpp"
+#include "format/load_scene.hpp"
 #include "render_fixture.hpp"
-#include "world.hpp"
+#include "world/flat_scene.hpp"
 
 using namespace causticl;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "device_fixture.hpp"
-#include "pilot.hpp"
+#include "photons/pilot.hpp"
 #include "render/render_fixture.hpp"
 
 using namespace causticl;

@@ -3,7 +3,7 @@
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
-#include "types.h"
+#include "shared/types.h"
 
 using namespace causticl;
 

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/error.hpp"
 #include "device_fixture.hpp"
-#include "effects.h"
-#include "error.hpp"
 #include "render_fixture.hpp"
+#include "shared/effects.h"
 
 using namespace causticl;
 

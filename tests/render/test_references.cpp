@@ -1,6 +1,7 @@
 // The same scene by two independent renderers (not shipped; skipped where the folder is missing).
 #include <catch2/catch.hpp>
 
+#include "format/load_scene.hpp"
 #include "reference_comparison.hpp"
 #include "render_fixture.hpp"
 

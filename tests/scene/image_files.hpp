@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image.hpp"
+#include "image/image.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "mesh.hpp"
+#include "base/vec.hpp"
+#include "mesh/mesh.hpp"
 #include "temporary_folder.hpp"
-#include "vec.hpp"
 
 namespace causticl {
 

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "scene.hpp"
+#include "format/load_scene.hpp"
+#include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

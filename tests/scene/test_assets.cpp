@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mesh.hpp"
+#include "mesh/mesh.hpp"
 
 using namespace causticl;
 namespace fs = std::filesystem;

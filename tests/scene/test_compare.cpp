@@ -1,11 +1,11 @@
 // The numbers of `causticl compare`.
-#include "compare.hpp"
+#include "accuracy/compare.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include "flip.hpp"
+#include "image/flip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "mesh_files.hpp"
-#include "object_triangles.hpp"
+#include "scene/object_triangles.hpp"
 #include "scene_folder.hpp"
-#include "world.hpp"
+#include "world/flat_scene.hpp"
 
 namespace causticl {
 namespace {

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <limits>
 
-#include "image.hpp"
-#include "image_formats.hpp"
+#include "image/image.hpp"
+#include "image/image_formats.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

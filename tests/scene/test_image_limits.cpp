@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "hostile_images.hpp"
-#include "image.hpp"
-#include "jpeg_markers.hpp"
+#include "image/image.hpp"
+#include "image/jpeg_markers.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "image/image_metadata.hpp"
 #include "image_files.hpp"
-#include "image_metadata.hpp"
 #include "scene_folder.hpp"
 
 namespace causticl {

@@ -3,8 +3,8 @@
 #include <ctime>
 #include <iostream>
 
+#include "mesh/mesh_polygon.hpp"
 #include "mesh_files.hpp"
-#include "mesh_polygon.hpp"
 
 namespace causticl {
 

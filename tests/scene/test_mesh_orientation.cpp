@@ -1,6 +1,6 @@
 // Closed meshes that are wound inwards.
+#include "mesh/mesh_orientation.hpp"
 #include "mesh_files.hpp"
-#include "mesh_orientation.hpp"
 #include "scene_folder.hpp"
 
 namespace causticl {

@@ -1,13 +1,13 @@
 // Which triangles are needles: the host's verdict against the kernel that asks.
 #include "device_fixture.hpp"
-#include "object_triangles.hpp"
+#include "scene/object_triangles.hpp"
 
 using namespace causticl;
 
 namespace {
 
 const char* const normal_kernel = R"(
-#include "triangle.cl"
+#include "shapes/triangle.cl"
 kernel void normals(global const float *corners, global float4 *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;

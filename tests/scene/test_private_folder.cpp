@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "kernel_store.hpp"
-#include "private_folder.hpp"
-#include "run_folder.hpp"
+#include "base/private_folder.hpp"
+#include "base/run_folder.hpp"
+#include "opencl/kernel_store.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;

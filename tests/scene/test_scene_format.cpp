@@ -1,6 +1,7 @@
 // What the keys of the scene, its renderer and its camera mean, and their defaults.
 #include <cmath>
 
+#include "format/load_scene.hpp"
 #include "scene_folder.hpp"
 
 namespace causticl {

@@ -1,7 +1,7 @@
 // The tree that keeps lines and pointers.
 #include <catch2/catch.hpp>
 
-#include "json_reader.hpp"
+#include "format/json_reader.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
-#include "effects.h"
-#include "effects.hpp"
-#include "image_formats.hpp"
+#include "effects/effects.hpp"
+#include "image/image_formats.hpp"
 #include "scene_folder.hpp"
-#include "world.hpp"
+#include "shared/effects.h"
+#include "world/flat_scene.hpp"
 
 namespace causticl {
 namespace {

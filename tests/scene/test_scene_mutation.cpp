@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <random>
 
-#include "scene.hpp"
+#include "format/load_scene.hpp"
+#include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "format/load_scene.hpp"
 #include "scene_folder.hpp"
 
 namespace causticl {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "spectrum.hpp"
+#include "scene/spectrum.hpp"
 
 using namespace causticl;
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "render/render_fixture.hpp"
-#include "view_check.hpp"
+#include "world/view_check.hpp"
 
 using namespace causticl;
 

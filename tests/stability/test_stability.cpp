@@ -4,8 +4,8 @@
 #include <set>
 
 #include "device_fixture.hpp"
-#include "selftest.hpp"
-#include "stability_checks.hpp"
+#include "selftest/selftest.hpp"
+#include "selftest/stability_checks.hpp"
 
 using namespace causticl;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "study_store.hpp"
+#include "study/study_store.hpp"
 
 namespace causticl {
 

@@ -1,5 +1,5 @@
 // From measurements to answers, on curves that are known.
-#include "study_analysis.hpp"
+#include "study/study_analysis.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

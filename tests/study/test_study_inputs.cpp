@@ -3,8 +3,9 @@
 #include <filesystem>
 #include <set>
 
-#include "folder_lock.hpp"
-#include "study_inputs.hpp"
+#include "base/folder_lock.hpp"
+#include "format/load_scene.hpp"
+#include "study/study_inputs.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;
@@ -56,29 +57,29 @@ TEST_CASE("every byte of a scene and of the files that it names counts") {
 }
 
 TEST_CASE("every option that decides what is rendered counts") {
-  Options options;
+  StudyRequest options;
   options.study.knobs = {"alpha", "radius"};
   std::set<std::vector<std::string>> all{deciding_options(options)};
   const auto with = [&](auto change) {
-    Options other = options;
+    StudyRequest other = options;
     change(other);
     all.insert(deciding_options(other));
   };
-  with([](Options& o) { o.study.knobs = {"alpha"}; });
-  with([](Options& o) { o.study.knobs = {}; });
-  with([](Options& o) { o.study.seeds = 5; });
-  with([](Options& o) { o.scene_options.integrator = Integrator::pt; });
-  with([](Options& o) { o.scene_options.integrator = Integrator::sppm; });
+  with([](StudyRequest& o) { o.study.knobs = {"alpha"}; });
+  with([](StudyRequest& o) { o.study.knobs = {}; });
+  with([](StudyRequest& o) { o.study.seeds = 5; });
+  with([](StudyRequest& o) { o.scene_options.integrator = Integrator::pt; });
+  with([](StudyRequest& o) { o.scene_options.integrator = Integrator::sppm; });
   const TemporaryFolder kernels;
   kernels.write("a.cl", "one");
-  with([&](Options& o) { o.kernel_dir = kernels.path(""); });
+  with([&](StudyRequest& o) { o.kernel_dir = kernels.path(""); });
   kernels.write("a.cl", "two");
-  with([&](Options& o) { o.kernel_dir = kernels.path(""); });
+  with([&](StudyRequest& o) { o.kernel_dir = kernels.path(""); });
   CHECK(all.size() == 8);
   // Their order, and what is printed or for how long, decides nothing.
-  with([](Options& o) { o.study.knobs = {"radius", "alpha"}; });
-  with([](Options& o) { o.study.budget = 1; });
-  with([](Options& o) { o.quiet = o.study.restart = true; });
+  with([](StudyRequest& o) { o.study.knobs = {"radius", "alpha"}; });
+  with([](StudyRequest& o) { o.study.budget = 1; });
+  with([](StudyRequest& o) { o.study.restart = true; });
   CHECK(all.size() == 8);
 }
 

@@ -1,14 +1,14 @@
 // The page of a study, without a browser: scripts/study_page.sh has one.
-#include "study_page.hpp"
+#include "study/study_page.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../temporary_folder.hpp"
-#include "image.hpp"
+#include "image/image.hpp"
+#include "study/study_insets.hpp"
 #include "study_fixture.hpp"
-#include "study_insets.hpp"
 
 using namespace causticl;
 using Catch::Contains;

@@ -1,12 +1,13 @@
 // The table of knobs, and how a budget is shared out.
-#include "study_plan.hpp"
+#include "format/load_scene.hpp"
+#include "study/study_plan.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <set>
 
 #include "../temporary_folder.hpp"
-#include "options.hpp"
+#include "app/options.hpp"
 #include "study_fixture.hpp"
 
 using namespace causticl;

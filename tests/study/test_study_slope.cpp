@@ -9,7 +9,7 @@
 
 #include "../render/render_fixture.hpp"
 #include "device_fixture.hpp"
-#include "study_analysis.hpp"
+#include "study/study_analysis.hpp"
 
 using namespace causticl;
 

@@ -1,0 +1,282 @@
+// Photon paths: from an emitter through the scene, stored at every diffuse surface they land on and wherever the
+// medium scatters them.
+#include "photons/projection_map.cl"
+#include "photons/channel_shifts.cl"
+#include "photons/emission_map.cl"
+#include "photons/metropolis_photons.cl"
+#include "photons/photon_interaction.cl"
+#include "traversal/brute_force.cl"
+#include "traversal/kdtree_stream.cl"
+#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
+#define WAVE_SIDE_BY_SIDE  // all rays of a wave at once
+#endif
+
+// Sets the random numbers of photons apart from those of camera paths.
+#define PHOTON_SEED 0x9e3779b9u
+
+// The random numbers of photon i of the wave.
+INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) {
+  RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, wave->index[i],
+                         HAS(EFFECT_GUIDED_PHOTONS) ? wave->copy[i] : 0, HAS(EFFECT_GUIDED_PHOTONS) ? wave->fresh[i] : 0};
+  return stream;
+}
+
+// Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the wave.
+OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
+                       uint alive, uint count, Wave *wave, volatile global Counters *counters) {
+  const Scene scene = *from;
+  const Params params = *settings;
+  global const AimCell *cells = aims->cells;
+  global const EmissionCell *emission = guide->emission;
+  const uint emission_cells = guide->emission_cells;
+  for (uint i = alive; i < alive + count; ++i) {
+    PhotonStart start = {first + i - alive, 0, 0, 0, 1};
+    if (HAS(EFFECT_GUIDED_PHOTONS)) {
+      start = guided_start(guide, &params, first + i - alive);
+      wave->copy[i] = start.copy;
+      wave->fresh[i] = start.fresh;
+      wave->seed[i] = start.seed;
+      wave->useful[i] = 0;
+    }
+    wave->index[i] = start.path;
+    wave->depth[i] = 0;
+    wave->flux[0][i] = start.share;  // until the photon has a flux of its own
+    if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0) {
+      RandomStream stream = wave_stream(&params, wave, i);
+      real4 choice = random4(stream, DIM_EMITTER);
+      uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
+      wave->flux_rg[i] = cell;  // until the photon has a record
+      wave->flux[0][i] *= emission[cell].share;
+      wave->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
+    } else {
+      wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
+    }
+  }
+  const real3 scale = channel_scale(params.channel_shifts);
+#if VECTORISED(LOOPED_EMISSION)
+#pragma clang loop vectorize(assume_safety)
+#endif
+  for (uint i = alive; i < alive + count; ++i) {
+    RandomStream stream = wave_stream(&params, wave, i);
+    real4 random = random4(stream, DIM_EMISSION), choice = random4(stream, DIM_EMITTER);
+    real u = random.x, v = random.y, share = 1;
+    uint emitter = wave->primitive[i];
+    if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0)
+      choice = emission_numbers(emission + wave->flux_rg[i], choice, &u, &v);
+    if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, aim_square(emitter, params.emitter_count), random.z, &u, &v);
+    real3 flux;
+    Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
+    flux = product3(scale, flux);
+    if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
+    if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
+    PhotonState photon;
+    photon.ray = ray, photon.flux = flux;
+    photon.history = HISTORY_STRAIGHT, photon.mark = 0, photon.interior = interior_none();
+    if (HAS(EFFECT_HORIZON) && scene.emitters[emitter].type >= EMITTER_DIRECTIONAL) photon.mark = FROM_BEYOND;
+    if (HAS(EFFECT_NESTED)) {
+      uint faults = 0;
+      photon.media = media_at_emitter(&scene, emitter, ray, &faults);
+      if (nested(&scene)) photon.interior = interior_of_stack(&scene, &photon.media.stack);
+      count_faults(faults, counters);
+    }
+    wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
+    wave_put(wave, i, &photon);
+  }
+}
+
+// Finds where each photon's ray ends.
+OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
+  const Geometry *g = &scene->geometry;
+  for (uint i = 0; i < count; ++i) {
+    Hit hit = hit_none(INFINITY);
+#ifdef WAVE_SIDE_BY_SIDE
+    planes_closest(g, wave_ray(wave, i), &hit);
+#else
+    geometry_closest(g, wave_ray(wave, i), &hit);
+    count_faults(hit.faults, counters);
+#endif
+    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+  }
+#ifdef WAVE_SIDE_BY_SIDE
+  RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
+                    {wave->direction[0], wave->direction[1], wave->direction[2]},
+                    wave->t, wave->u, wave->v, wave->primitive};
+#endif
+#if defined(WAVE_BRUTE_FORCE)
+  uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
+  if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
+#elif defined(WAVE_SIDE_BY_SIDE)
+  if (!HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER)) return;
+  uint faults[WAVE_CAPACITY];
+  kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, faults);
+  for (uint i = 0; i < count; ++i) count_faults(faults[i], counters);
+#endif
+}
+
+// Puts what photons in a gap of no width meet next in the place of what their rays have met.
+OUTLINE void wave_contacts(const Scene *scene, uint count, Wave *wave) {
+  for (uint i = 0; i < count; ++i) {
+    if (!nested(scene) || wave->media[i].contact == CONTACT_NONE) continue;
+    Hit hit = hit_none(INFINITY);
+    media_closest(scene, wave->media + i, wave_ray(wave, i), &hit);
+    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+  }
+}
+
+// Takes each photon past its hit.
+OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count, Wave *wave,
+                          volatile global Counters *counters) {
+  const Scene scene = *from;
+  const Params params = *settings;
+#if VECTORISED(LOOPED_EVENTS)
+#pragma clang loop vectorize(assume_safety)
+#endif
+  for (uint i = 0; i < count; ++i) {
+    RandomStream stream = wave_stream(&params, wave, i);
+    Hit hit = {wave->t[i], wave->primitive[i], wave->u[i], wave->v[i], 0};
+    uint events = 0;
+    if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
+      PhotonState photon = wave_get(wave, i);
+      Photon record = {{0, 0, 0}, 0, 0, 0};
+      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
+      if (HAS(EFFECT_NESTED)) count_faults(photon.faults, counters);
+      wave_put(wave, i, &photon);
+      wave_put_record(wave, i, &record);
+    }
+    wave->events[i] = events;
+  }
+}
+
+// Counts the scouts that land as parts of caustics, by the cell that they left by.
+OUTLINE void wave_learn(const Scene *scene, const Params *params, const Wave *wave, uint count, const Aim *aim) {
+  for (uint i = 0; i < count; ++i) {
+    if (!(wave->events[i] & EVENT_STORED) || (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON))) continue;
+    RandomStream stream = wave_stream(params, wave, i);
+    real4 random = random4(stream, DIM_EMISSION);
+    atomic_inc(aim->landed + aim_square(photon_emitter(scene, stream), scene->emitter_count) +
+               aim_cell(random.x, random.y));
+  }
+}
+
+// Stores the records of the last event and counts what went wrong there.
+OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, uint capacity,
+                        volatile global Counters *counters) {
+  // Which events left a record is as good as random: a list without branches costs a third of asking one by one.
+  uint kept[WAVE_CAPACITY], stored = 0, copies = 0, indirect = 0, saturated = 0, non_finite = 0;
+  for (uint i = 0; i < count; ++i) {
+    uint events = wave->events[i];
+    bool stays = (events & EVENT_STORED) != 0;
+    kept[stored] = i;
+    stored += stays;
+    bool is_indirect = stays && (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON;
+    indirect += is_indirect;
+    if (HAS(EFFECT_SMOOTH)) {
+      uint more = stays ? events >> EVENT_COPIES_SHIFT : 0;
+      copies += more;
+      indirect += is_indirect ? more : 0;
+    }
+    saturated += (events & EVENT_SATURATED) != 0;
+    non_finite += (events & EVENT_NON_FINITE) != 0;
+  }
+  if (saturated > 0) atomic_add(&counters->saturated, saturated);
+  if (non_finite > 0) atomic_add(&counters->non_finite, non_finite);
+  if (stored == 0) return;
+  if (indirect > 0) atomic_add(&counters->indirect, indirect);
+  uint slot = list_reserve(stored + copies, &counters->photons);
+  uint room = slot < capacity ? min(stored + copies, capacity - slot) : 0, next = stored;
+  for (uint k = 0; k < min(stored, room); ++k) {
+    uint i = kept[k];
+    Photon photon = {{wave->position[0][i], wave->position[1][i], wave->position[2][i]},
+                     wave->normal[i], wave->flux_rg[i], wave->flux_b[i]};
+    photons[slot + k] = photon;
+    if (HAS(EFFECT_SMOOTH))
+      for (uint more = wave->events[i] >> EVENT_COPIES_SHIFT; more > 0 && next < room; --more) photons[slot + next++] = photon;
+  }
+}
+
+// Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are
+// then.
+OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
+  uint alive = first;
+  for (uint i = first; i < end; ++i) {
+    wave_move(wave, i, alive);
+    alive += wave->events[i] & EVENT_ALIVE;
+  }
+  return alive;
+}
+
+// Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that
+// have ended. Returns the number of rays.
+OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
+                        uint end, global Photon *photons, volatile global Counters *counters) {
+  Wave wave;
+  uint rays = 0, alive = 0;
+  if (params->max_depth == 0) return 0;
+  while (first < end || alive > 0) {
+    uint room = (WAVE_CAPACITY - alive) / WAVE_STEP * WAVE_STEP, fresh = min(end - first, room);
+    if (fresh > 0 && (room >= WAVE_REFILL || alive == 0)) {
+      wave_emit(scene, params, guide, aim, first, alive, wave_padded(fresh), &wave, counters);
+      first += fresh;
+      alive = wave_compact(alive, alive + fresh, &wave);
+    }
+    rays += alive;
+    wave_trace(scene, alive, &wave, counters);
+    if (HAS(EFFECT_NESTED)) wave_contacts(scene, alive, &wave);
+    uint padded = wave_padded(alive);
+    for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
+    wave_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave, counters);
+    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_SCOUTS)
+      wave_guide(guide, params, alive, &wave, counters);
+    if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)
+      wave_learn(scene, params, &wave, alive, aim);
+    else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
+      wave_store(alive, &wave, photons, params->photon_capacity, counters);
+    for (uint i = 0; i < alive; ++i) ++wave.depth[i];
+    alive = wave_compact(0, alive, &wave);
+  }
+  return rays;
+}
+
+// Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
+// the host can enlarge it and trace the pass again. Where photons go in waves, one item of a work-group traces
+// PHOTONS_AN_ITEM for each item of that, if any are left for the group. What follows
+// `params` is asked for by guided photons, and at the end by aimed ones.
+kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
+                          Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
+                          Grid cells, global const EmissionCell *emission, uint emission_cells,
+                          global const AimCell *aim_cells, volatile global uint *aim_landed) {
+  uint first = get_global_id(0), count = 1;
+  if (WAVE_CAPACITY > 1u) {
+    if (get_local_id(0) != 0 || params.photon_count == 0) return;
+    // Few groups have something to do, spread evenly over all: threads take runs of neighbouring groups.
+    count = (uint)get_local_size(0) * PHOTONS_AN_ITEM;
+    ulong busy = (params.photon_count + count - 1u) / count, group = get_group_id(0), groups = get_num_groups(0);
+    uint before = (uint)(group * busy / groups);
+    if ((group + 1) * busy / groups == before) return;
+    first = before * count;
+  }
+  if (first >= params.photon_count) return;
+  SCENE_INIT(params);
+  uint end = first + min(count, params.photon_count - first);
+  Guide guide = {seeds, accepted, marks, cells, emission, emission_cells};
+  Aim aim = {aim_cells, aim_landed};
+  uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
+                         counters);
+  count_rays(rays, counters);
+}
+
+// numbers[i] = the START_NUMBERS of seed number i of the list, as its photon used them. Of scouts PHOTONS_TO_LEARN_BY.
+kernel void seed_numbers(global const uint2 *seeds, global const EmissionCell *emission, uint emission_cells,
+                         global float *numbers, uint seed, uint pass, uint count) {
+  uint i = get_global_id(0);
+  if (!HAS(EFFECT_GUIDED_PHOTONS) || i >= count) return;
+  RandomStream stream = {seed ^ PHOTON_SEED, pass, seeds[i].x, 0, 0};
+  real4 choice = random4(stream, DIM_EMITTER), random = random4(stream, DIM_EMISSION);
+  real u = random.x, v = random.y;
+  if (emission_cells > 0) {
+    uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
+    choice = emission_numbers(emission + cell, choice, &u, &v);
+  }
+  global float *point = numbers + i * START_NUMBERS;
+  point[0] = choice.x, point[1] = choice.y, point[2] = choice.z, point[3] = u, point[4] = v;
+}

@@ -1,0 +1,234 @@
+// Camera paths that have come to a diffuse surface, side by side: their visible points, and light that comes there straight
+// from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and wave.cl).
+#include "photons/kernel_area.cl"
+#include "lights/direct.cl"
+#include "photons/grid.cl"
+#include "photons/photon_stream.cl"
+#include "sampling/sobol.cl"
+#include "traversal/brute_force.cl"
+#include "traversal/triangle_packet.cl"
+
+// Effects that ask for loops, or for arithmetic of whole vectors, on the way, or for more than a receiver keeps. Lobes that
+// no diffuse surface has do not matter.
+#define LOOPED_RECEIVERS                                                                                        \
+  (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_PLASTIC |             \
+   EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_NESTED | OUTPUT_LAYERS)
+#define RECEIVERS_SIDE_BY_SIDE VECTORISED(LOOPED_RECEIVERS)
+
+#if RECEIVERS_SIDE_BY_SIDE && defined(WAVE_BRUTE_FORCE)
+#define SHADOWS_BY_BRUTE_FORCE
+#endif
+
+// By component: the last ray of each path and its hit, what the path carries, and what is found out about its end. What
+// loops over them read is set up to wave_padded() of their number; rays beyond are masked where packets of sixteen are read.
+typedef struct {
+  real origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY];
+  real t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
+  uint primitive[WAVE_CAPACITY];  // as in Hit
+  real throughput[3][WAVE_CAPACITY], radiance[3][WAVE_CAPACITY];
+  uint counted[WAVE_CAPACITY];  // whether the emission there is, by unlikely_lobe.cl
+  uint depth[WAVE_CAPACITY];    // of the vertex
+  uint pixel[WAVE_CAPACITY], sample[WAVE_CAPACITY];  // of the path
+
+  real position[3][WAVE_CAPACITY], error[WAVE_CAPACITY];  // as in Surface
+  real side[3][WAVE_CAPACITY];    // the geometric normal on the path's side
+  real facing[3][WAVE_CAPACITY];  // facing_normal()
+  real weight[3][WAVE_CAPACITY];  // of the visible point; zero where there is none
+  uint normal[WAVE_CAPACITY];
+  uint emitter[WAVE_CAPACITY];
+  real random[4][WAVE_CAPACITY];  // by which it is chosen, and the place on it
+  real distance[WAVE_CAPACITY], reflected[3][WAVE_CAPACITY];  // of UnshadowedLight; its ray is then the path's
+} Receivers;
+
+INLINE PathSampler receiver_sampler(const Params *params, const Receivers *r, uint i, uint sobol) {
+  return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, sobol);
+}
+
+INLINE Ray receiver_ray(const Receivers *r, uint i) {
+  Ray ray = {(real3)(r->origin[0][i], r->origin[1][i], r->origin[2][i]),
+             (real3)(r->direction[0][i], r->direction[1][i], r->direction[2][i])};
+  return ray;
+}
+
+// Makes path i one that meets a diffuse surface at `hit`.
+INLINE void receivers_put(Receivers *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
+                          real3 radiance, uint depth, bool counted) {
+  r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
+  r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
+  r->t[i] = hit.t, r->u[i] = hit.u, r->v[i] = hit.v, r->primitive[i] = hit.primitive;
+  r->throughput[0][i] = throughput.x, r->throughput[1][i] = throughput.y, r->throughput[2][i] = throughput.z;
+  r->radiance[0][i] = radiance.x, r->radiance[1][i] = radiance.y, r->radiance[2][i] = radiance.z;
+  r->counted[i] = counted, r->depth[i] = depth, r->pixel[i] = pixel, r->sample[i] = sample;
+}
+
+// Makes path i that before it once more.
+INLINE void receivers_repeat(Receivers *r, uint i) {
+  for (uint k = 0; k < 3; ++k) {
+    r->origin[k][i] = r->origin[k][i - 1];
+    r->direction[k][i] = r->direction[k][i - 1];
+    r->throughput[k][i] = r->throughput[k][i - 1];
+    r->radiance[k][i] = r->radiance[k][i - 1];
+  }
+  r->t[i] = r->t[i - 1], r->u[i] = r->u[i - 1], r->v[i] = r->v[i - 1], r->primitive[i] = r->primitive[i - 1];
+  r->counted[i] = r->counted[i - 1], r->depth[i] = r->depth[i - 1];
+  r->pixel[i] = r->pixel[i - 1], r->sample[i] = r->sample[i - 1];
+}
+
+INLINE bool receiver_reflects(const Receivers *r, uint i) {
+  return max(r->weight[0][i], max(r->weight[1][i], r->weight[2][i])) > 0;
+}
+
+// What camera_path() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
+INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *r, uint i, uint sobol) {
+  Ray ray = receiver_ray(r, i);
+  Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
+  Surface surface;
+  geometry_surface_parts(&scene->geometry, ray, hit, &surface);
+  global const Material *material = scene->materials + surface.material;
+  real3 throughput = (real3)(r->throughput[0][i], r->throughput[1][i], r->throughput[2][i]);
+  real3 emission = product3(throughput, emission_at(material, &surface, ray.direction));
+  bool counted = r->counted[i] != 0;
+  r->radiance[0][i] += counted ? 0 : emission.x;
+  r->radiance[1][i] += counted ? 0 : emission.y;
+  r->radiance[2][i] += counted ? 0 : emission.z;
+
+  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+  real3 weight = scaled3(INV_PI, product3(throughput, bsdf.color));
+  weight = choose3(r->depth[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
+  real3 p = surface.position, n = facing_normal(&surface, ray.direction), g = surface.geometric_normal;
+  g = scaled3(dot3(g, ray.direction) < 0 ? 1 : -1, g);
+  r->position[0][i] = p.x, r->position[1][i] = p.y, r->position[2][i] = p.z, r->error[i] = surface.error;
+  r->side[0][i] = g.x, r->side[1][i] = g.y, r->side[2][i] = g.z;
+  r->facing[0][i] = n.x, r->facing[1][i] = n.y, r->facing[2][i] = n.z;
+  r->weight[0][i] = weight.x, r->weight[1][i] = weight.y, r->weight[2][i] = weight.z;
+  r->normal[i] = normal_pack(g);
+  PathSampler sampler = receiver_sampler(params, r, i, sobol);
+  real4 random = path_random4_parts(&sampler, dimension_at(r->depth[i], DIM_LIGHT));
+  r->random[0][i] = random.x, r->random[1][i] = random.y, r->random[2][i] = random.z, r->random[3][i] = random.w;
+}
+
+OUTLINE void receivers_find_points(const Scene *from, const Params *settings, uint count, Receivers *r) {
+  const Scene scene = *from;
+  const Params params = *settings;
+  if (params.sobol != 0) {
+#if RECEIVERS_SIDE_BY_SIDE
+#pragma clang loop vectorize(assume_safety)
+#endif
+    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 1);
+  } else {
+#if RECEIVERS_SIDE_BY_SIDE
+#pragma clang loop vectorize(assume_safety)
+#endif
+    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 0);
+  }
+}
+
+// Light from the emitter chosen for the visible point of path i, whose shadow ray takes the place of the path's.
+INLINE void receiver_light(const Scene *scene, Receivers *r, uint i) {
+  Surface surface;
+  surface.position = (real3)(r->position[0][i], r->position[1][i], r->position[2][i]);
+  surface.geometric_normal = (real3)(r->side[0][i], r->side[1][i], r->side[2][i]);
+  surface.error = r->error[i];
+  real3 n = (real3)(r->facing[0][i], r->facing[1][i], r->facing[2][i]);
+  real3 weight = (real3)(r->weight[0][i], r->weight[1][i], r->weight[2][i]);
+  real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
+  Bsdf bsdf;
+  bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
+  UnshadowedLight light = unshadowed_light(scene, r->emitter[i], &bsdf, &surface, interior_none(),
+                                           receiver_ray(r, i).direction, n, weight, random, false);
+  real3 o = light.shadow.origin, d = light.shadow.direction, l = light.reflected;
+  r->origin[0][i] = o.x, r->origin[1][i] = o.y, r->origin[2][i] = o.z;
+  r->direction[0][i] = d.x, r->direction[1][i] = d.y, r->direction[2][i] = d.z;
+  r->distance[i] = light.distance;
+  r->reflected[0][i] = l.x, r->reflected[1][i] = l.y, r->reflected[2][i] = l.z;
+}
+
+OUTLINE void receivers_find_light(const Scene *from, uint count, Receivers *r) {
+  const Scene scene = *from;
+#if RECEIVERS_SIDE_BY_SIDE
+#pragma clang loop vectorize(assume_safety)
+#endif
+  for (uint i = 0; i < count; ++i) receiver_light(&scene, r, i);
+}
+
+// Whether light comes to the visible point of path i unless something is in the way.
+INLINE bool receiver_asks(const Receivers *r, uint i) {
+  return max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0;
+}
+
+// Leaves light alone that is positive and that nothing is in the way of. Returns the number of rays.
+OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, volatile global Counters *counters) {
+  uint rays = 0;
+#ifdef SHADOWS_BY_BRUTE_FORCE
+  const Geometry *g = &scene->geometry;
+  for (uint i = 0; i < count; ++i) {
+    bool asks = receiver_asks(r, i);
+    rays += asks ? 1u : 0u;
+    r->t[i] = asks ? r->distance[i] : -INFINITY;
+    r->primitive[i] = HIT_NONE;
+  }
+  RayArrays shadows = {{r->origin[0], r->origin[1], r->origin[2]},
+                       {r->direction[0], r->direction[1], r->direction[2]}, r->t, r->u, r->v, r->primitive};
+  uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &shadows);
+  if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
+  for (uint i = 0; i < count; ++i) {
+    bool arrives = receiver_asks(r, i) && r->primitive[i] == HIT_NONE;
+    for (uint k = 0; k < 3; ++k) r->reflected[k][i] = arrives ? r->reflected[k][i] : 0;
+  }
+#else
+  for (uint i = 0; i < count; ++i) {
+    if (!receiver_asks(r, i) || shadowed(scene, receiver_ray(r, i), r->distance[i], &rays, counters))
+      r->reflected[0][i] = r->reflected[1][i] = r->reflected[2][i] = 0;
+  }
+#endif
+  return rays;
+}
+
+// Probes the disc of the visible points that are to (coverage.cl). Returns the number of rays.
+OUTLINE uint receivers_probe(const Scene *scene, const Params *params, uint count, Receivers *r,
+                             global const SppmPixel *pixels, volatile global Counters *counters) {
+  uint rays = 0;
+  for (uint i = 0; i < count; ++i) {
+    real radius;
+    if (!receiver_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->sample[i], &radius)) continue;
+    PathSampler sampler = receiver_sampler(params, r, i, params->sobol);
+    Hit hit = {0, r->primitive[i], r->u[i], r->v[i], 0};
+    r->normal[i] |= coverage_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
+                                   (real3)(r->side[0][i], r->side[1][i], r->side[2][i]), radius * radius,
+                                   path_random_at(&sampler, r->depth[i], DIM_COVERAGE), &rays, counters);
+  }
+  return rays;
+}
+
+OUTLINE void receivers_store(const Params *params, uint count, const Receivers *r, bool lit, global VisiblePoint *points) {
+  for (uint i = 0; i < count; ++i) {
+    VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
+    bool reflects = receiver_reflects(r, i);
+    point.normal = reflects ? r->normal[i] : 0;
+    for (uint k = 0; k < 3; ++k) {
+      point.position[k] = reflects ? r->position[k][i] : 0;
+      point.weight[k] = r->weight[k][i];
+      point.radiance[k] = r->radiance[k][i] + (lit ? r->reflected[k][i] : 0);
+    }
+    points[(r->pixel[i] - params->first_pixel) * params->visible_points + r->sample[i]] = point;
+  }
+}
+
+// Finds the visible points of `count` paths and stores them. Returns the number of rays.
+OUTLINE uint receivers_finish(const Scene *scene, const Params *params, uint count, Receivers *r,
+                              global VisiblePoint *points, global const SppmPixel *pixels,
+                              volatile global Counters *counters) {
+  if (count == 0) return 0;
+  uint padded = wave_padded(count);
+  for (uint i = count; i < padded; ++i) receivers_repeat(r, i);
+  receivers_find_points(scene, params, padded, r);
+  uint rays = receivers_probe(scene, params, count, r, pixels, counters);
+  bool lit = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
+  if (lit) {
+    for (uint i = 0; i < padded; ++i) r->emitter[i] = emitter_choose(scene, r->random[0][i], r->random[3][i]);
+    receivers_find_light(scene, padded, r);
+    rays += receivers_shadow(scene, count, r, counters);
+  }
+  receivers_store(params, count, r, lit, points);
+  return rays;
+}

@@ -1,0 +1,286 @@
+// Finding the photons around a point: exact integer sums, eight photons at a time.
+#include "photons/grid.cl"
+#include "film/light_passes.cl"
+#include "media/medium.cl"
+#include "photons/walls.cl"
+
+typedef struct {
+  ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
+  ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2
+  ulong direct_red, direct_green, direct_blue;     // with OUTPUT_LAYERS, of those that came straight from a light
+  ulong caustic_red, caustic_green, caustic_blue;  // and by specular surfaces alone
+  uint count;
+} Gathered;
+
+// LAYER_* of a photon's word of blue flux.
+INLINE uint photon_layer(uint flux_b) { return flux_b >> PHOTON_LAYER_SHIFT; }
+
+// The same by lanes of eight photons, which the ranges of a search share.
+typedef struct {
+  uint8 red, green, blue, near_red, near_green, near_blue;
+  uint8 direct_red, direct_green, direct_blue, caustic_red, caustic_green, caustic_blue;
+  int8 count;  // negative: a comparison's true is -1
+  uint steps;  // of eight photons since the lanes were empty
+} GatherLanes;
+
+// As many steps of 16-bit flux as the 32-bit lanes hold.
+#define GATHER_STEPS 65536u
+
+INLINE GatherLanes gather_lanes_empty(void) {
+  GatherLanes lanes = {(uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0),
+                       (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (uint8)(0), (int8)(0),  0};
+  return lanes;
+}
+
+INLINE ulong sum_of_lanes(uint8 v) {
+  ulong4 a = convert_ulong4(v.lo) + convert_ulong4(v.hi);
+  ulong2 b = a.lo + a.hi;
+  return b.x + b.y;
+}
+
+// Adds the lanes to the sums.
+INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
+  sum->red += sum_of_lanes(lanes.red);
+  sum->green += sum_of_lanes(lanes.green);
+  sum->blue += sum_of_lanes(lanes.blue);
+  sum->near_red += sum_of_lanes(lanes.near_red);
+  sum->near_green += sum_of_lanes(lanes.near_green);
+  sum->near_blue += sum_of_lanes(lanes.near_blue);
+  if (HAS(OUTPUT_LAYERS)) {
+    sum->direct_red += sum_of_lanes(lanes.direct_red);
+    sum->direct_green += sum_of_lanes(lanes.direct_green);
+    sum->direct_blue += sum_of_lanes(lanes.direct_blue);
+    sum->caustic_red += sum_of_lanes(lanes.caustic_red);
+    sum->caustic_green += sum_of_lanes(lanes.caustic_green);
+    sum->caustic_blue += sum_of_lanes(lanes.caustic_blue);
+  }
+  sum->count += (uint)sum_of_lanes(as_uint8(-lanes.count));
+}
+
+// Whether photons with these words of marks and normal landed on the side that a visible point's normal is of: the cosine
+// of the two is more than GATHER_NORMAL_COSINE.
+INLINE int8 same_side_by_floats(int8 photons, uint normal) {
+  float3 n = normal_unpack(normal) * (1.0f / 127.0f);
+  return n.x * convert_float8(photons << 24 >> 24) + n.y * convert_float8(photons << 16 >> 24) +
+             n.z * convert_float8(photons << 8 >> 24) > GATHER_NORMAL_COSINE;
+}
+#ifdef __AVX2__
+typedef char Bytes __attribute__((ext_vector_type(32)));
+typedef short Words __attribute__((ext_vector_type(16)));
+// Four products of bytes at once, in a third of the instructions that floats take, and the same: the product is a whole
+// number, so that the limit may be rounded down. x86 multiplies bytes without a sign by bytes with one, which has to be
+// that of both.
+INLINE int8 same_side(int8 photons, uint normal) {
+  Bytes p = __builtin_astype(photons, Bytes), n = __builtin_astype((int8)(int)(normal & 0xffffffu), Bytes);
+  Words sums = __builtin_ia32_pmaddubsw256(__builtin_ia32_psignb256(p, p), __builtin_ia32_psignb256(n, p));
+  return __builtin_ia32_pmaddwd256(sums, (Words)1) > (int)(GATHER_NORMAL_COSINE * 127 * 127);
+}
+#else
+INLINE int8 same_side(int8 photons, uint normal) { return same_side_by_floats(photons, normal); }
+#endif
+
+// Those of the photons `inside` that no wall parts from the visible point.
+OUTLINE int8 beside_walls(global const PhotonBlock *photons, int8 inside, const NearWalls *walls) {
+  int kept[8];
+  vstore8(inside, 0, kept);
+  for (uint lane = 0; lane < 8; ++lane) {
+    if (kept[lane] == 0) continue;
+    real3 p = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]);
+    if (walls_between(walls, p, convert_real3(normal_unpack(photons->normal[lane])))) kept[lane] = 0;
+  }
+  return vload8(0, kept);
+}
+
+// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the
+// lanes, and these to `sum` where they are full. `walls` are those near the point, or null.
+INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, uint normal, real radius2,
+                         const NearWalls *walls, GatherLanes *lanes, Gathered *sum) {
+  const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+  real near_radius2 = radius2 / 4;
+  uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
+  uint8 number = block * 8 + lane - begin;  // in the range; of those before it, beyond all
+  while (block < blocks_end) {
+    if (lanes->steps == GATHER_STEPS) {
+      gather_lanes_add(*lanes, sum);
+      *lanes = gather_lanes_empty();
+    }
+    uint steps = min(blocks_end - block, GATHER_STEPS - lanes->steps), stop = block + steps;
+    lanes->steps += steps;
+    for (; block < stop; ++block) {
+      global const PhotonBlock *photons = sorted + block;
+      real8 dx = vload8(0, photons->position[0]) - point.x;
+      real8 dy = vload8(0, photons->position[1]) - point.y;
+      real8 dz = vload8(0, photons->position[2]) - point.z;
+      int8 packed = as_int8(vload8(0, photons->normal));
+      real8 distance2 = dx * dx + dy * dy + dz * dz;
+      int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal) & (number < end - begin);
+      number += 8;
+      if (HAS(EFFECT_MEDIUM)) inside &= packed >= 0;  // the others are marked IN_MEDIUM
+      if (HAS(EFFECT_WALLS) && walls) inside = beside_walls(photons, inside, walls);
+      uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
+      uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
+      uint8 r = red_green & 0xffffu, g = red_green >> 16;
+      if (HAS(OUTPUT_LAYERS)) {
+        uint8 layer = b >> PHOTON_LAYER_SHIFT;
+        b &= 0xffffu;
+        uint8 direct = as_uint8(layer == LAYER_DIRECT), caustic = as_uint8(layer == LAYER_CAUSTIC);
+        lanes->direct_red += r & direct;
+        lanes->direct_green += g & direct;
+        lanes->direct_blue += b & direct;
+        lanes->caustic_red += r & caustic;
+        lanes->caustic_green += g & caustic;
+        lanes->caustic_blue += b & caustic;
+      }
+      lanes->red += r;
+      lanes->green += g;
+      lanes->blue += b;
+      lanes->near_red += r & near;
+      lanes->near_green += g & near;
+      lanes->near_blue += b & near;
+      lanes->count += inside;
+    }
+  }
+}
+
+// A piece of a camera ray in the medium: what lies between `from` and `to` of its beginning.
+typedef struct {
+  real3 begin, direction;
+  real from, to;
+  real3 extinction;  // per unit length
+  real g;            // of the phase function
+} MediumSegment;
+
+// The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
+#define PHASE_UNIT 16777216.0f
+
+// A random number in [0, 1) that is the same wherever a photon of direction `packed` is met at distance `along`: by it
+// shares are rounded, since far from the peak of the phase function they are a few parts or less.
+INLINE real share_dither(uint packed, real along) {
+  uint hash = (packed ^ as_uint((float)along)) * 2654435769u;
+  hash = (hash ^ (hash >> 15)) * 2246822519u;
+  return (real)(hash >> 8) / 16777216;
+}
+
+// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of the line of `segment`, between its ends: each
+// times the phase function for light that turns back along it and times transmittance to its beginning, in units of
+// phase_density(g, +-1) / PHASE_UNIT. Those within half the radius are also summed alone. This is the estimate of a beam by
+// points, with a blur in two dimensions (Jarosz, Nowrouzezahrai, Sadeghi, Jensen 2011, table 1).
+INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, uint end, const MediumSegment *segment,
+                                real radius2, Gathered *sum) {
+  real peak = phase_density(segment->g, segment->g < 0 ? -1 : 1);
+  for (uint i = begin; i < end; ++i) {
+    global const PhotonBlock *photons = sorted + i / 8;
+    uint lane = i % 8, packed = photons->normal[lane];
+    if (!(packed & IN_MEDIUM)) continue;
+    real3 d = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]) - segment->begin;
+    real along = dot(d, segment->direction);
+    d -= along * segment->direction;
+    real distance2 = dot(d, d);
+    if (!(distance2 <= radius2) || !(along >= segment->from) || !(along < segment->to)) continue;
+    real share = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
+    real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + share_dither(packed, along);
+    uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
+    ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
+    ulong blue = (ulong)weight.z * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);
+    sum->red += red;
+    sum->green += green;
+    sum->blue += blue;
+    ++sum->count;
+    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_DIRECT) {
+      sum->direct_red += red;
+      sum->direct_green += green;
+      sum->direct_blue += blue;
+    }
+    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_CAUSTIC) {
+      sum->caustic_red += red;
+      sum->caustic_green += green;
+      sum->caustic_blue += blue;
+    }
+    if (!(distance2 <= radius2 / 4)) continue;
+    sum->near_red += red;
+    sum->near_green += green;
+    sum->near_blue += blue;
+  }
+}
+
+// The cubes that can hold a photon within `reach` of `centre` along each axis: the *first bucket, and how many there are,
+// at most all of that axis. The interval is widened by the rounding of its ends. Six cubes at once take half the time of
+// one by one.
+INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
+  real4 x = (real4)(centre, 0), wider = (real4)(reach * (real)1.000001, 0) + fabs(x) * (real)2.4e-7;
+  real4 origin = convert_real4(grid.origin);
+  int8 cubes = convert_int8(GRID_COORDINATE((real8)(x - wider, x + wider), (real8)(origin, origin), grid.origin.w));
+  uint4 n = (uint4)(grid.nx, grid.ny, grid.nz, 1), low = as_uint4(cubes.lo), span = as_uint4(cubes.hi) - low;
+  *first = low & (n - 1);  // as grid_wrap()
+  return span >= n ? n : span + 1;
+}
+
+// Adds to `sum` what gather_range, or gather_range_medium where there is a `segment`, finds in every bucket that may
+// hold a photon within `reach` of `centre` along each axis, once: a window of at most n cubes along an axis of n
+// buckets has no two in one bucket.
+OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
+                            real3 reach, uint normal, real radius2, const MediumSegment *segment,
+                            const NearWalls *walls, Gathered *sum) {
+  GatherLanes lanes = gather_lanes_empty();
+  uint4 first, number = gather_window(grid, centre, reach, &first);
+  // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
+  uint first_end = min(first.x + number.x, grid.nx), wrapped = first.x + number.x - first_end;
+  for (uint k = 0; k < number.z; ++k) {
+    uint kk = first.z + k >= grid.nz ? first.z + k - grid.nz : first.z + k;
+    for (uint j = 0; j < number.y; ++j) {
+      uint jj = first.y + j >= grid.ny ? first.y + j - grid.ny : first.y + j;
+      global const uint *row = starts + grid.first_bucket + (kk * grid.ny + jj) * grid.nx;
+      for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
+        uint begin = part == 0 ? row[first.x] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
+        if (HAS(EFFECT_MEDIUM) && segment)
+          gather_range_medium(sorted, begin, end, segment, radius2, sum);
+        else if (HAS(EFFECT_WALLS) && walls)
+          gather_range(sorted, begin, end, centre, normal, radius2, walls, &lanes, sum);
+        else
+          gather_range(sorted, begin, end, centre, normal, radius2, 0, &lanes, sum);
+      }
+    }
+  }
+  gather_lanes_add(lanes, sum);
+}
+
+INLINE Gathered gathered_none(void) {
+  Gathered sum = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  return sum;
+}
+
+// Sums over all photons on surfaces within sqrt(radius2) of `point` that none of `walls` parts from it (null: there are
+// none), and over those within half that radius: what the two say differently of the density is a measure of how much the
+// larger one blurs.
+INLINE Gathered gather_beside(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
+                              uint normal, real radius2, const NearWalls *walls) {
+  Gathered sum = gathered_none();
+  real radius = sqrt(radius2);
+  gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, walls, &sum);
+  return sum;
+}
+
+// The same whatever walls there are.
+INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
+                       uint normal, real radius2) {
+  return gather_beside(grid, starts, sorted, point, normal, radius2, 0);
+}
+
+// The same over all photons of the medium within sqrt(radius2) of the segment of length `length` that begins at
+// `segment.begin`, as gather_range_medium weighs them. Goes along it in steps of two cubes, so that the boxes around them
+// hold little else; a photon belongs to the step that it projects into.
+INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const PhotonBlock *sorted,
+                              MediumSegment segment, real length, real radius2) {
+  Gathered sum = gathered_none();
+  real radius = sqrt(radius2), step = 2 / (real)grid.origin.w;
+  uint steps = (uint)fmin(ceil(length / step), (real)MOST_SEGMENT_STEPS);
+  step = length / fmax((real)steps, (real)1);
+  for (uint i = 0; i < steps; ++i) {
+    segment.from = i * step;
+    segment.to = i + 1 == steps ? length : (i + 1) * step;
+    real3 centre = segment.begin + (segment.from + step / 2) * segment.direction;
+    gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, 0, radius2,
+                   &segment, 0, &sum);
+  }
+  return sum;
+}

@@ -1,0 +1,154 @@
+// What befalls a photon: its record where it lands, and how it goes on from there or ends.
+#include "materials/adjoint_bsdf.cl"
+#include "lights/direct.cl"
+#include "lights/horizon.cl"
+#include "photons/grid.cl"
+#include "photons/photon_stream.cl"
+
+// Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
+INLINE uint flux_quantise(real flux, real random, bool *saturated) {
+  real units = flux * PHOTON_FLUX_UNIT + random;
+  *saturated = *saturated || units >= 65536;
+  return (uint)clamp(units, (real)0, (real)65535);
+}
+
+// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits. Where shading normals have
+// raised the flux above what a record holds, several alike share it: else the tail of their factor, which has no bound,
+// would be missing.
+INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history, real4 dither, Photon *record) {
+  bool saturated = false;
+  uint more = 0;
+  if (HAS(EFFECT_SMOOTH)) {
+    more = (uint)fmin(max_component(flux) * (PHOTON_FLUX_UNIT / 65534), (real)EVENT_MOST_COPIES);
+    flux = quotient3(flux, 1 + (real)more);
+  }
+  uint r = flux_quantise(flux.x, dither.x, &saturated), g = flux_quantise(flux.y, dither.y, &saturated),
+       b = flux_quantise(flux.z, dither.z, &saturated);
+  bool finite = isfinite(flux.x + flux.y + flux.z + position.x + position.y + position.z);
+  record->position[0] = position.x, record->position[1] = position.y, record->position[2] = position.z;
+  record->normal = normal;
+  record->flux_rg = r | g << 16;
+  record->flux_b = b;
+  if (HAS(OUTPUT_LAYERS)) record->flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
+  return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u) | more << EVENT_COPIES_SHIFT;
+}
+
+// Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
+INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+                             bool shadow_rays, PhotonState *photon, Photon *record, uint *events) {
+  if (!medium_along(scene, photon->ray, hit, hit.primitive != HIT_NONE, photon->interior)) return false;
+  real before = max_component(photon->flux), distance;
+  if (!medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &photon->flux, &distance))
+    return false;
+  photon->flux *= scene->medium.scattering;
+  photon->ray.origin += distance * photon->ray.direction;
+  *events = 0;
+  if (!(shadow_rays && depth == 0))
+    *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->history,
+                            random_at(stream, depth, DIM_QUANTISE), record);
+  real4 random = random_at(stream, depth, DIM_BSDF);
+  real survival = fmin(max_component(photon->flux) / before, (real)1);
+  if (depth + 1 == params->max_depth || random.w >= survival) return true;
+  photon->flux /= survival;
+  photon->ray.direction = phase_sample(scene->medium.g, photon->ray.direction, random.xy);
+  photon->history = history_after(photon->history, false);
+  photon->mark = INDIRECT_PHOTON;
+  if (max_component(photon->flux) > 0) *events |= EVENT_ALIVE;
+  return true;
+}
+
+// Puts the adjoint of what camera paths do in place of *next where the shading normal is not the geometric one.
+INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random, BsdfSample *next) {
+  bool bent = has_bent_normal(surface);
+  if (VECTORISED(LOOPED_EVENTS)) {
+    BsdfSample adjoint = adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
+    next->direction = choose3(bent, adjoint.direction, next->direction);
+    next->weight = choose3(bent, adjoint.weight, next->weight);
+  } else if (bent) {
+    *next = adjoint_bsdf_sample(bsdf, surface, direction, random);
+  }
+}
+
+// Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
+// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
+INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+                         PhotonState *photon, Photon *record) {
+  bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
+  uint events = 0;
+  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
+    return events;
+  if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
+  real3 direction = photon->ray.direction;
+  Surface surface;
+  geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
+  Interface interface;
+  if (nested(scene)) {
+    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, &photon->faults);
+    photon->interior = interior_of_stack(scene, &interface.before);
+  }
+  global const Material *material = scene->materials + surface.material;
+  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+  if (HAS(EFFECT_TEXTURES) && !isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z)) {
+    events |= EVENT_NON_FINITE;
+    bsdf.color = (real3)(0, 0, 0);
+  }
+  if (nested(scene)) {
+    if (interface.crosses)
+      media_bsdf(scene, &interface, &surface, direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf, &photon->flux);
+  } else if (HAS(EFFECT_DISPERSION))
+    disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &photon->flux);
+  real3 flux = photon->flux, n = facing_normal(&surface, direction);
+  real4 random = random_at(stream, depth, DIM_BSDF);
+  real before = max_component(flux);
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+    if (!nested(scene)) photon->interior = interior_before(photon->interior, material, &surface, direction);
+    flux *= interior_transmittance(photon->interior, hit.t);
+  }
+
+  bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
+  bool black = is_black(&bsdf, material);
+  // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
+  bool counted = shadow_rays && depth == 0, far = is_far(&scene->geometry, hit, surface.position);
+  if (far && depth == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
+  if (HAS(EFFECT_HORIZON)) photon->mark &= ~FROM_BEYOND;
+  bool landed_here = keeps_photons(&bsdf, material);
+  if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
+  if (landed_here) {
+    real3 landed = scaled3(shading_normal_arrival(&surface, direction), flux);
+    if (plastic) landed *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
+    real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
+    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
+                                photon->history, random_at(stream, depth, DIM_QUANTISE), record);
+    events |= counted ? EVENT_LANDED : stored;
+  }
+  bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
+  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+
+  if (plastic) plastic_choose(&bsdf, direction, n, random.z);
+  photon->history = history_after(photon->history, bsdf_is_specular(&bsdf));
+  photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
+  BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
+                               : bsdf_sample(&bsdf, &surface, direction, random, false);
+  if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
+  if (far && bsdf.kind == MATERIAL_DIFFUSE)
+    next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
+  flux = product3(flux, next.weight);
+  // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
+  // What a far surface has scattered may be more than was emitted, and is to become less.
+  if (has_horizon(&scene->geometry)) before = fmin(before, (real)1);
+  real survival = fmin(max_component(flux) / before, (real)1);
+  flux = quotient3(flux, survival);
+  alive = alive && random.w < survival && max_component(flux) > 0;
+  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
+    photon->interior = interior_after(photon->interior, material, &surface, next.direction);
+  if (nested(scene)) {
+    photon->ray.origin = media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
+    photon->interior = interior_of_stack(scene, &photon->media.stack);
+  } else {
+    photon->ray.origin = offset_origin(surface.position, surface.error, surface.geometric_normal, next.direction);
+  }
+  photon->ray.direction = next.direction;
+  photon->flux = flux;
+  return events | (alive ? EVENT_ALIVE : 0u);
+}

@@ -1,0 +1,24 @@
+// Walls: the surfaces that may stand between a visible point and a photon near it. Part of types.h.
+#pragma once
+
+#define WALL_TRIANGLE 0u
+#define WALL_PLANE 1u
+#define WALL_DISK 2u
+#define WALL_SPHERE 3u
+
+typedef struct {
+  float4 origin;   // triangle: a corner; plane: a point of it; disk, sphere: the centre; w: WALL_*
+  float4 normal;   // unit; w: the radius of a disk or sphere
+  float4 edge[3];  // triangle: the unit vector in its plane from each edge inward; w: that edge's distance from `origin`
+} Wall;
+CHECK_SIZE(Wall, 80);
+
+// A grid of cells over all that is bounded, each with a list of the walls that matter to visible points within it: see
+// walls.cl. In its buffer follow the first entry of each cell's list and the end of the last, the entries, and the walls.
+// Cell 0 is all space outside the grid, cell 1 + (k * ny + j) * nx + i the cell (i, j, k).
+typedef struct {
+  float4 origin;    // the low corner of the cell (0, 0, 0); w: 1 / edge of a cell
+  uint nx, ny, nz;  // cells along each axis
+  uint first_wall;  // the place of the first wall in the buffer, in units of 16 bytes; 0 where there is none at all
+} WallGrid;
+CHECK_SIZE(WallGrid, 32);

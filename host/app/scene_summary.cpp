@@ -1,0 +1,244 @@
+// What a scene holds, in words and numbers.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "app/report.hpp"
+#include "base/printable.hpp"
+#include "format/scene_output.hpp"
+#include "scene/dielectrics.hpp"
+#include "scene/object_bounds.hpp"
+#include "world/view_check.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr std::size_t longest_list = 10;  // lines that one part may take
+
+std::string triple(Vec3 v) {
+  std::ostringstream text;
+  text << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  return text.str();
+}
+
+/// "1 mesh", "3 meshes".
+std::string count(std::size_t number, const std::string& noun) {
+  const char* ending = number == 1                                                      ? ""
+                       : noun.back() == 'h' || noun.back() == 'x' || noun.back() == 's' ? "es"
+                                                                                        : "s";
+  return std::to_string(number) + " " + noun + ending;
+}
+
+const char* shape_name(Object::Shape shape) {
+  switch (shape) {
+    case Object::Shape::sphere:
+      return "sphere";
+    case Object::Shape::plane:
+      return "plane";
+    case Object::Shape::rectangle:
+      return "rectangle";
+    case Object::Shape::disk:
+      return "disk";
+    case Object::Shape::box:
+      return "box";
+    case Object::Shape::mesh:
+      return "mesh";
+    case Object::Shape::bezier:
+      break;
+  }
+  return "bezier_rotate";
+}
+
+const char* material_name(MaterialSpec::Kind kind) {
+  switch (kind) {
+    case MaterialSpec::Kind::diffuse:
+      return "diffuse";
+    case MaterialSpec::Kind::mirror:
+      return "mirror";
+    case MaterialSpec::Kind::glass:
+      return "glass";
+    case MaterialSpec::Kind::conductor:
+      return "conductor";
+    case MaterialSpec::Kind::plastic:
+      break;
+  }
+  return "plastic";
+}
+
+void print_image(std::ostream& text, const Scene& scene) {
+  text << "image       " << scene.width << " x " << scene.height << " pixels";
+  if (!scene.output.empty()) text << ", to " << scene_output(scene).file;
+  text << "\n";
+}
+
+void print_integrator(std::ostream& text, const Scene& scene) {
+  const RendererSpec& r = scene.renderer;
+  if (r.integrator == Integrator::pt) {
+    text << "integrator  pt: " << count(static_cast<std::size_t>(r.samples), "sample") << " a pixel";
+  } else {
+    text << "integrator  sppm: " << r.passes << (r.passes == 1 ? " pass of " : " passes of ") << r.photons
+         << " photons, " << count(static_cast<std::size_t>(r.visible_points), "visible point")
+         << " a pixel, first radius ";
+    if (r.radius)
+      text << *r.radius;
+    else
+      text << "chosen from the scene";
+    if (indirect_radius(r) != 1) text << " (" << indirect_radius(r) << " times that for indirect light)";
+    if (r.schedule == Schedule::geometric)
+      text << ", geometric schedule with radius decay " << r.radius_decay;
+    else
+      text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
+           << r.alpha;
+    if (!r.boundary_correction) text << ", no boundary correction";
+    if (r.guided_photons) text << (*r.guided_photons ? ", guided photons" : ", photons without guidance");
+    if (r.aimed_photons) text << (*r.aimed_photons ? ", aimed photons" : ", photons without aim");
+    text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
+  }
+  if (r.sampler == Sampler::independent) text << ", independent numbers";
+  text << "; at most " << count(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";
+}
+
+void print_camera(std::ostream& text, const CameraSpec& camera) {
+  constexpr double degrees = 57.29577951308232;
+  text << "camera      at " << triple(camera.origin) << " toward " << triple(camera.axis)
+       << ", vertical field of view " << 2 * std::atan(length(camera.up) / 2) * degrees << " degrees";
+  if (camera.plane_distance != 0) text << ", rays start " << camera.plane_distance << " ahead";
+  if (camera.aperture > 0)
+    text << ", lens radius " << camera.aperture << ", sharp at " << camera.focal_distance;
+  text << "\n";
+}
+
+void print_objects(std::ostream& text, const Scene& scene) {
+  std::map<std::string, std::size_t> shapes;
+  for (const auto& object : scene.objects) ++shapes[shape_name(object.shape)];
+  text << "objects     " << scene.objects.size();
+  const char* separator = ": ";
+  for (const auto& [shape, number] : shapes) {
+    text << separator << count(number, shape);
+    separator = ", ";
+  }
+  text << "\n";
+
+  std::size_t triangles = 0;
+  std::map<int, std::size_t> uses;  // of each mesh
+  for (const auto& object : scene.objects) {
+    if (object.shape != Object::Shape::mesh) continue;
+    ++uses[object.mesh];
+    triangles += scene.meshes[static_cast<std::size_t>(object.mesh)].triangles();
+  }
+  for (const auto& [index, number] : uses) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+    text << "  mesh      " << printable_line(mesh.file) << ": " << count(mesh.triangles(), "triangle");
+    if (number > 1) text << ", used " << number << " times";
+    text << "\n";
+  }
+  if (uses.size() > 1) text << "  in all    " << count(triangles, "triangle") << "\n";
+}
+
+void print_motion(std::ostream& text, const Scene& scene) {
+  if (!has_motion(scene)) return;
+  const auto moving = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                    [](const Object& object) { return length(object.motion) > 0; });
+  text << "  moving    " << moving << ", shutter from " << scene.camera.shutter[0] << " to "
+       << scene.camera.shutter[1] << "\n";
+}
+
+void print_medium(std::ostream& text, const MediumSpec& medium) {
+  if (!(max_component(medium.absorption + medium.scattering) > 0)) return;
+  text << "medium      absorption " << triple(medium.absorption) << ", scattering "
+       << triple(medium.scattering) << " per unit length, g " << medium.g << "\n";
+}
+
+void print_materials(std::ostream& text, const Scene& scene) {
+  std::map<std::string, std::size_t> kinds;
+  for (const auto& material : scene.materials) ++kinds[material_name(material.kind)];
+  text << "materials   " << scene.materials.size();
+  const char* separator = ": ";
+  for (const auto& [kind, number] : kinds) {
+    text << separator << number << " " << kind;
+    separator = ", ";
+  }
+  text << "\ntextures    " << scene.textures.size() << "\n";
+  for (const auto& texture : scene.textures) {
+    if (texture.kind == TextureSpec::Kind::checker) {
+      text << "  checker   of " << triple(texture.a) << " and " << triple(texture.b) << "\n";
+      continue;
+    }
+    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    text << "  image     " << printable_line(image.file) << ": " << image.width << " x " << image.height
+         << (texture.bilinear ? ", bilinear" : ", nearest") << "\n";
+  }
+}
+
+std::string delta_light_line(const DeltaLight& light) {
+  std::ostringstream text;
+  text << light.pointer << ": ";
+  if (light.kind == DeltaLight::Kind::directional) {
+    text << "directional light toward " << triple(light.direction) << ", irradiance ";
+  } else {
+    const bool spot = light.kind == DeltaLight::Kind::spot;
+    text << (spot ? "spot light of " : "point light");
+    if (spot) text << light.angle << " degrees";
+    text << " at " << triple(light.position) << ", intensity ";
+  }
+  text << triple(light.intensity);
+  return text.str();
+}
+
+std::string environment_line(const Environment& environment) {
+  std::string line = environment.pointer + ": environment ";
+  if (!environment.map.file.empty()) line += printable_line(environment.map.file) + ", ";
+  return line + std::to_string(environment.map.width) + " x " + std::to_string(environment.map.height) +
+         " texels";
+}
+
+void print_emitters(std::ostream& text, const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const auto& object : scene.objects) {
+    const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (!is_lit(scene, object)) continue;
+    lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : shape_name(object.shape)) +
+                    ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
+  }
+  for (const DeltaLight& light : scene.lights)
+    if (is_lit(light)) lines.push_back(delta_light_line(light));
+  if (scene.environment && is_lit(*scene.environment)) lines.push_back(environment_line(*scene.environment));
+  text << "emitters    " << lines.size() << "\n";
+  for (std::size_t i = 0; i < std::min(lines.size(), longest_list); ++i) text << "  " << lines[i] << "\n";
+  if (lines.size() > longest_list) text << "  and " << lines.size() - longest_list << " more\n";
+}
+
+void print_bounds(std::ostream& text, const Scene& scene) {
+  BoundingBox bounds;
+  for (const auto& object : scene.objects) bounds.add(object_bounds(scene, object));
+  text << "bounds      ";
+  if (bounds.empty())
+    text << "none: every object is infinite\n";
+  else
+    text << triple(bounds.low) << " to " << triple(bounds.high) << ", infinite planes apart\n";
+}
+
+}  // namespace
+
+std::string scene_summary(const Scene& scene) {
+  std::ostringstream text;
+  text << "scene       " << printable_line(scene.file) << "\n";
+  print_image(text, scene);
+  print_integrator(text, scene);
+  print_camera(text, scene.camera);
+  print_objects(text, scene);
+  print_motion(text, scene);
+  print_materials(text, scene);
+  print_medium(text, scene.medium);
+  print_emitters(text, scene);
+  print_bounds(text, scene);
+  for (const auto& line : find_dielectrics(scene).lines)
+    text << "dielectrics " << printable_line(line) << "\n";
+  for (const auto& notice : scene.notices) text << "note        " << printable_line(notice) << "\n";
+  const std::string empty_view = empty_view_notice(scene);
+  if (!empty_view.empty()) text << "note        " << empty_view << "\n";
+  return text.str();
+}
+
+}  // namespace causticl

@@ -1,0 +1,228 @@
+#include "device_scene/wall_primitives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "effects/passes.hpp"
+
+namespace causticl {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+Vec3 to_vec3(const float4& v) { return {v.x, v.y, v.z}; }
+
+uint type_of(const WallPrimitive& primitive) { return static_cast<uint>(primitive.wall.origin.w); }
+
+Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// A primitive of the material, without its shape.
+WallPrimitive primitive_of(const Scene& scene, std::size_t material) {
+  const MaterialSpec& spec = scene.materials[material];
+  WallPrimitive result{};
+  result.blocks = spec.kind != MaterialSpec::Kind::glass || spec.alpha_diffuse;
+  result.receives = stores_photons(spec);
+  return result;
+}
+
+void set_bounds(WallPrimitive& primitive, Vec3 low, Vec3 high) {
+  primitive.low = low;
+  primitive.high = high;
+}
+
+/// False for a triangle without area.
+bool set_triangle(WallPrimitive& primitive, const Vec3 (&corner)[3]) {
+  const Vec3 across = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  if (!(length(across) > 0) || !std::isfinite(length(across))) return false;
+  const Vec3 n = normalize(across);
+  primitive.wall.origin = to_float4(corner[0], WALL_TRIANGLE);
+  primitive.wall.normal = to_float4(n);
+  Vec3 low = corner[0], high = corner[0];
+  for (int i = 0; i < 3; ++i) {
+    primitive.corner[i] = corner[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], corner[i][axis]);
+      high[axis] = std::max(high[axis], corner[i][axis]);
+    }
+    const Vec3 inward = normalize(cross(n, corner[(i + 1) % 3] - corner[i]));
+    primitive.wall.edge[i] = to_float4(inward, dot(inward, corner[i] - corner[0]));
+  }
+  set_bounds(primitive, low, high);
+  return true;
+}
+
+/// The point of a Bezier curve at `t`, by de Casteljau.
+std::array<double, 2> curve_point(std::vector<std::array<double, 2>> points, double t) {
+  for (std::size_t n = points.size(); n > 1; --n)
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      for (std::size_t k = 0; k < 2; ++k) points[i][k] += t * (points[i + 1][k] - points[i][k]);
+  return points[0];
+}
+
+/// The revolved curve as strips of triangles. They lie a little inside of it: what they stand for is whether
+/// something is behind them.
+void add_curve(const Scene& scene, const Object& object, double time,
+               std::vector<WallPrimitive>& primitives) {
+  constexpr int along = 24, around = 32;
+  Transform transform = object.transform;
+  transform.translation = transform.translation + time * object.motion;
+  const auto point = [&](int i, int j) {
+    const auto [radius, height] = curve_point(object.points, static_cast<double>(i) / along);
+    const double angle = 2 * std::numbers::pi * j / around;
+    return transform.point({radius * std::cos(angle), height, radius * std::sin(angle)});
+  };
+  for (int i = 0; i < along; ++i)
+    for (int j = 0; j < around; ++j) {
+      const Vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1), d = point(i, j + 1);
+      for (const auto& corner : {std::to_array({a, b, c}), std::to_array({a, c, d})}) {
+        WallPrimitive primitive = primitive_of(scene, static_cast<std::size_t>(object.material));
+        if (set_triangle(primitive, {corner[0], corner[1], corner[2]})) primitives.push_back(primitive);
+      }
+    }
+}
+
+/// False for a shape that is none of its own here: revolved curves, whose points the scene holds.
+bool set_shape(WallPrimitive& primitive, const Shape& shape) {
+  const float4* rows = shape.to_world;
+  const Vec3 centre{rows[0].w, rows[1].w, rows[2].w};
+  if (shape.type == SHAPE_SPHERE) {
+    const double radius = shape.sphere.w;
+    primitive.wall.origin = to_float4(to_vec3(shape.sphere), WALL_SPHERE);
+    primitive.wall.normal.w = shape.sphere.w;
+    const Vec3 reach{radius, radius, radius};
+    set_bounds(primitive, to_vec3(shape.sphere) - reach, to_vec3(shape.sphere) + reach);
+    return true;
+  }
+  if (shape.type == SHAPE_BEZIER) return false;
+  // The row of the inverse is the normal, whatever the map does to the local axes.
+  const Vec3 n = normalize(to_vec3(shape.to_local[2]));
+  if (shape.type == SHAPE_PLANE) {
+    primitive.wall.origin = to_float4(centre, WALL_PLANE);
+    primitive.wall.normal = to_float4(n);
+    set_bounds(primitive, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity});
+    return true;
+  }
+  // An ellipse counts as its inscribed circle.
+  const Vec3 x{rows[0].x, rows[1].x, rows[2].x}, y{rows[0].y, rows[1].y, rows[2].y};
+  const double radius = std::min(length(x), length(y));
+  primitive.wall.origin = to_float4(centre, WALL_DISK);
+  primitive.wall.normal = to_float4(n, radius);
+  Vec3 reach;
+  for (int axis = 0; axis < 3; ++axis) reach[axis] = radius * std::sqrt(std::max(0.0, 1 - n[axis] * n[axis]));
+  set_bounds(primitive, centre - reach, centre + reach);
+  return true;
+}
+
+/// The part of a triangle within the box, as a convex polygon.
+std::vector<Vec3> clipped(const WallPrimitive& triangle, const WallBox& box) {
+  std::vector<Vec3> polygon(triangle.corner, triangle.corner + 3), next;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      const auto outside = [&](Vec3 p) { return sign * (p[axis] - box.centre[axis]) - box.half[axis]; };
+      next.clear();
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        const double da = outside(a), db = outside(b);
+        if (da <= 0) next.push_back(a);
+        if ((da < 0) != (db < 0) && da != db) next.push_back(a + (da / (da - db)) * (b - a));
+      }
+      polygon.swap(next);
+    }
+  return polygon;
+}
+
+}  // namespace
+
+std::vector<WallPrimitive> wall_primitives(const Scene& scene, const World& world, double time) {
+  std::vector<WallPrimitive> primitives;
+  primitives.reserve(world.tree.triangles.size() + world.shapes.size());
+  for (std::size_t i = 0; i < world.tree.triangles.size(); ++i) {
+    const auto& position = world.tree.triangles[i].position;
+    WallPrimitive primitive = primitive_of(scene, world.attributes[i].material & ~TRIANGLE_SMOOTH);
+    const auto corner = [&](int c) { return Vec3{position[c][0], position[c][1], position[c][2]}; };
+    if (set_triangle(primitive, {corner(0), corner(1), corner(2)})) primitives.push_back(primitive);
+  }
+  for (const auto& shape : world.shapes) {
+    WallPrimitive primitive = primitive_of(scene, shape.material);
+    if (set_shape(primitive, shape)) primitives.push_back(primitive);
+  }
+  for (const auto& object : scene.objects)
+    if (object.shape == Object::Shape::bezier) add_curve(scene, object, time, primitives);
+  return primitives;
+}
+
+bool may_reach(const WallPrimitive& primitive, const WallBox& box, double reach) {
+  const Vec3 from = box.centre - to_vec3(primitive.wall.origin);
+  const double half_diagonal = length(box.half);
+  if (type_of(primitive) == WALL_SPHERE)
+    return std::fabs(length(from) - primitive.wall.normal.w) <= reach + half_diagonal;
+  const Vec3 n = to_vec3(primitive.wall.normal);
+  if (std::fabs(dot(n, from)) > reach + dot(absolute(n), box.half)) return false;
+  if (type_of(primitive) == WALL_DISK) return length(from) <= reach + half_diagonal + primitive.wall.normal.w;
+  if (type_of(primitive) == WALL_TRIANGLE)
+    for (const float4& edge : primitive.wall.edge) {
+      const Vec3 inward = to_vec3(edge);
+      if (edge.w - dot(inward, from) > reach + dot(absolute(inward), box.half)) return false;
+    }
+  return true;
+}
+
+WallSides sides_of(const WallPrimitive& wall, const WallPrimitive& other, const WallBox& box,
+                   double tolerance) {
+  WallSides sides;
+  const Vec3 origin = to_vec3(wall.wall.origin), n = to_vec3(wall.wall.normal);
+  const bool sphere = type_of(wall) == WALL_SPHERE;
+  const double radius = wall.wall.normal.w;
+  const auto add = [&](double low, double high) {
+    sides.front = sides.front || high > tolerance;
+    sides.back = sides.back || low < -tolerance;
+  };
+  const auto distance = [&](Vec3 p) { return sphere ? length(p - origin) - radius : dot(n, p - origin); };
+  const Vec3 place = to_vec3(other.wall.origin), other_normal = to_vec3(other.wall.normal);
+  switch (type_of(other)) {
+    case WALL_SPHERE: {
+      const double at = distance(place), reach = other.wall.normal.w;
+      add(sphere ? std::max(at - reach, -radius) : at - reach, at + reach);
+      break;
+    }
+    case WALL_PLANE:
+    case WALL_DISK: {
+      if (sphere) {
+        add(std::fabs(dot(other_normal, origin - place)) - radius, infinity);
+        break;
+      }
+      // Of a plane what lies in the box, at most.
+      const double sine = std::sqrt(std::max(0.0, 1 - dot(n, other_normal) * dot(n, other_normal)));
+      const double reach = type_of(other) == WALL_PLANE ? infinity : other.wall.normal.w;
+      if (sine < 1e-6)
+        add(distance(place), distance(place));
+      else
+        add(distance(place) - reach * sine, distance(place) + reach * sine);
+      break;
+    }
+    default: {
+      const auto polygon = clipped(other, box);
+      if (polygon.empty()) break;
+      double low = infinity, high = -infinity;
+      for (const Vec3 p : polygon) {
+        low = std::min(low, distance(p));
+        high = std::max(high, distance(p));
+      }
+      if (sphere) {  // a face may dip into the sphere between its corners
+        const double at = std::fabs(dot(other_normal, origin - polygon[0])) - radius;
+        low = std::min(low, at);
+      }
+      add(low, high);
+    }
+  }
+  return sides;
+}
+
+}  // namespace causticl

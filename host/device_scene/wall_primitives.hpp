@@ -1,0 +1,37 @@
+// The surfaces of a scene as walls, and on which sides of each other they lie.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "world/flat_scene.hpp"
+
+namespace causticl {
+
+/// A box by its centre and half edges.
+struct WallBox {
+  Vec3 centre, half;
+};
+
+struct WallPrimitive {
+  Wall wall;
+  Vec3 corner[3];  // of a triangle
+  Vec3 low, high;  // bounds; of a plane infinite
+  bool blocks;     // light does not pass it
+  bool receives;   // photons may be stored on it
+};
+
+/// All surfaces but the infinitesimal ones. Revolved curves become triangles, glass parts nothing.
+std::vector<WallPrimitive> wall_primitives(const Scene& scene, const World& world, double time);
+
+/// Whether the primitive may come within `reach` of the box: true too where it is a little farther.
+bool may_reach(const WallPrimitive& primitive, const WallBox& box, double reach);
+
+/// On which sides of a wall what lies of another primitive within a box is, by more than `tolerance`.
+struct WallSides {
+  bool front = false, back = false;
+};
+WallSides sides_of(const WallPrimitive& wall, const WallPrimitive& other, const WallBox& box,
+                   double tolerance);
+
+}  // namespace causticl

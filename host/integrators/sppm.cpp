@@ -1,0 +1,221 @@
+#include "integrators/sppm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "device_scene/params.hpp"
+#include "device_scene/walls.hpp"
+#include "effects/effects.hpp"
+#include "shared/effects.h"
+
+namespace causticl {
+namespace {
+
+// The first hits of camera paths lie where their visible points will.
+static_assert(sizeof(FirstHit) == sizeof(VisiblePoint));
+
+/// Of the scene's half extent: the length of the pieces of camera rays in the medium around which photons are
+/// gathered. Longer ones find more photons, in a time that grows with them: of 0.05, 0.3 and 1 this one has
+/// the smallest error at equal time in scenes/effects/fog.json.
+constexpr double segment_share = 0.3;
+
+}  // namespace
+
+Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
+           std::uint32_t seed, bool with_photons, const Pilot* pilot)
+    : scene_(scene),
+      spec_(scene.renderer),
+      device_(device),
+      film_(film),
+      device_scene_(device_scene),
+      programs_(programs),
+      motion_(scene, device, device_scene, seed),
+      params_(scene_params(scene, device_scene, seed)),
+      counters_(device.buffer(sizeof(Counters), "counters")),
+      guide_(device_scene, device, programs, static_cast<std::uint32_t>(scene.renderer.photons),
+             scene.renderer.guided_photons.value_or(false) && with_photons),
+      aim_(device, (programs.options().effects & EFFECT_AIMED_PHOTONS) ? device_scene.emitter_count : 0,
+           static_cast<std::uint32_t>(scene.renderer.photons),
+           with_photons && (effect_bits(find_effects(scene)) & EFFECT_AIMED_PHOTONS)),
+      photon_map_(device_scene, device, programs, counters_, guide_, aim_),
+      with_photons_(with_photons && params_.emitter_count > 0),
+      walled_(with_photons_ && (effect_bits(find_effects(scene)) & EFFECT_WALLS)),
+      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
+                            ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
+                           record_scale(programs.options().precision)),
+      unknown_(device, programs) {
+  device_.clear(counters_, sizeof(Counters));
+  params_.visible_points = static_cast<uint>(spec_.visible_points);
+  params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
+  params_.coverage = spec_.boundary_correction && with_photons_;
+  params_.alpha = static_cast<float>(spec_.alpha);
+  params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
+
+  chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
+  pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
+
+  // The first pass begins here, while programs that it needs later are still being built.
+  if (with_photons_) photon_map_.prepare(programs);
+  began_ = Clock::now();
+  start_pass(0);
+  early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
+  trace_camera_ = programs.kernel("camera", "trace_camera");
+  gather_photons_ = programs.kernel("gather", "gather_photons");
+  first_hits_ = FirstHits(programs, "camera", device_scene, counters_);
+  first_argument_ = set_scene_arguments(trace_camera_, device_scene);
+  trace_camera_.setArg(first_argument_ + 1, counters_);
+  trace_camera_.setArg(first_argument_ + 3, pixels_);
+
+  walls_ = device_.upload(no_walls(), "walls");
+  trace_camera_.setArg(first_argument_ + 4, walls_);
+  if (pilot)
+    adopt(*pilot);
+  else
+    pilot_ = run_pilot();
+  smallest_radius2_ = 1e-12 * length_scale(device_scene) * length_scale(device_scene);
+  guide_.set_radius(pilot_.first_radius);
+  unknown_.set_view(pilot_.around);
+  totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
+  schedule_radius2_ = pilot_.first_radius * pilot_.first_radius;
+  cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
+  set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
+                static_cast<float>(schedule_radius2_));
+  device_.launch_pass(start_pixels, film_.pixels());
+}
+
+/// Places what moves for the pass and traces its photons, unless that has been done; before the first also
+/// the scouts by which photons are aimed.
+void Sppm::start_pass(std::uint32_t pass) {
+  if (started_pass_ == pass) return;
+  begin_pass(params_, pass);
+  motion_.begin_pass(pass);
+  set_emission(params_, device_scene_);
+  if (pass == 0 && aim_.scouts() > 0) {
+    photon_map_.take_aim(params_);
+    totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // scouts are no part of the pass
+  }
+  trace_photons(pass);
+  started_pass_ = pass;
+}
+
+void Sppm::trace_photons(std::uint32_t pass) {
+  const auto emission = guide_.emission(pass);
+  params_.photon_role = emission.role;
+  params_.first_photon = static_cast<uint>(share_.first_of(emission.photons));
+  params_.photon_count = static_cast<uint>(share_.count_of(emission.photons));
+  params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / emission.photons);
+  if (with_photons_) totals_.update(photon_map_.trace(params_));
+}
+
+/// Where those of a chunk lie: in the memory of the photons as traced, once these have been sorted, if it is
+/// large enough.
+const cl::Buffer& Sppm::visible_points() {
+  const std::size_t bytes = chunk_pixels_ * params_.visible_points * visible_point_bytes_;
+  if (photon_map_.traced_bytes() >= bytes) {
+    own_visible_points_ = {};
+    return photon_map_.traced();
+  }
+  if (!own_visible_points_()) own_visible_points_ = device_.buffer(bytes, "visible points");
+  return own_visible_points_;
+}
+
+/// Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
+float Sppm::segment(double radius) const {
+  return static_cast<float>(
+      std::min(segment_share * length_scale(device_scene_), MOST_SEGMENT_STEPS * 4 * radius));
+}
+
+/// Those of the chunk that `params` tells.
+void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) {
+  first_hits_.launch(device_, device_scene_, points, params, params.visible_points);
+  trace_camera_.setArg(first_argument_, points);
+  trace_camera_.setArg(first_argument_ + 2, params);
+  device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
+}
+
+/// Lists the walls for balls of the first radius, since no later radius is larger. Where something moves,
+/// each pass lists them anew.
+void Sppm::place_walls(std::uint32_t pass) {
+  if (!walled_ || (walls_placed_ && !has_motion(scene_))) return;
+  walls_placed_ = true;
+  const double time =
+      has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
+  const double widest = pilot_.first_radius * std::max(1.0, indirect_radius(spec_));
+  walls_ = device_.upload(wall_grid(scene_, build_world(scene_, time), time, widest), "walls");
+  trace_camera_.setArg(first_argument_ + 4, walls_);
+}
+
+/// Equation (9) with a pixel's photons as they are on average, or Knaus & Zwicker 2011, equation 14:
+/// R'^2 = R^2 (i + alpha) / (i + 1) for i = 1, 2, ...
+void Sppm::advance_schedule(std::uint32_t pass) {
+  if (spec_.schedule == Schedule::geometric)
+    schedule_radius2_ *= spec_.radius_decay * spec_.radius_decay;
+  else
+    schedule_radius2_ *= (pass + 1 + spec_.alpha) / (pass + 2.0);
+  // A radius that vanishes beside the scene finds nothing, and its square would underflow.
+  schedule_radius2_ = std::max(schedule_radius2_, smallest_radius2_);
+}
+
+void Sppm::enqueue_pass(std::uint32_t pass) {
+  start_pass(pass);
+  set_scene_arguments(trace_camera_, device_scene_);
+  place_walls(pass);
+  // A pixel with radii of its own starts from the same one: the schedule then tells the usual size of a cell.
+  params_.radius2 = spec_.schedule == Schedule::pixel ? 0.0f : static_cast<float>(schedule_radius2_);
+  emitted_ += with_photons_ ? static_cast<std::uint64_t>(spec_.photons) : 0;
+  const double radius = std::sqrt(schedule_radius2_);
+  photon_map_.sort(radius, radius * indirect_radius(spec_));
+  params_.segment = segment(radius);
+  const bool look_for_unknown = with_photons_ && unknown_.due(pass);
+  if (look_for_unknown) unknown_.begin(photon_map_.records_buffer(), photon_map_.stored());
+
+  const cl::Buffer& points = visible_points();
+  const std::size_t end = share_.end_of(film_.pixels());
+  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
+    params_.first_pixel = static_cast<uint>(first);
+    params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, end - first));
+    trace_visible_points(points, params_);
+    set_arguments(gather_photons_, points, pixels_, film_.buffer(), photon_map_.starts(),
+                  photon_map_.sorted(), counters_, photon_map_.grids(), params_, walls_);
+    device_.launch_pass(gather_photons_, params_.pixel_count);
+    guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
+    if (look_for_unknown) unknown_.find(points, pixels_, film_.buffer(), params_);
+  }
+  if (look_for_unknown) unknown_.finish(film_.buffer(), share_.first_of(film_.pixels()), end);
+  advance_schedule(pass);
+}
+
+PassIntegrator::Totals Sppm::finish() {
+  totals_.update(device_.download<Counters>(counters_, 1)[0]);
+  Faults faults = totals_.faults;
+  faults.dropped = photon_map_.dropped();
+  return {emitted_, photon_map_.stored(), totals_.rays, faults, guide_.seeds()};
+}
+
+std::vector<Channel> Sppm::channels() {
+  // One radius for all is that of the pass to come; photons are counted for radii of their own alone.
+  const bool own_radii = spec_.schedule == Schedule::pixel;
+  const auto pixels = device_.download<SppmPixel>(pixels_, film_.pixels());
+  std::vector<Channel> channels{{"sppm.radius", std::vector<float>(pixels.size())}};
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    channels[0].values[i] =
+        static_cast<float>(std::sqrt(own_radii ? pixels[i].radius2_hi : schedule_radius2_));
+  if (!own_radii) return channels;
+  channels.push_back({"sppm.photons", std::vector<float>(pixels.size())});
+  channels.push_back({"sppm.N", std::vector<float>(pixels.size())});
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double photons = std::ldexp(pixels[i].photons_high, 32) + pixels[i].photons_low;
+    channels[1].values[i] = static_cast<float>(photons);
+    channels[2].values[i] = static_cast<float>(spec_.alpha * photons);
+  }
+  return channels;
+}
+
+double Sppm::bytes_per_pixel() const {
+  const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * visible_point_bytes_);
+  return sizeof(SppmPixel) + (own_visible_points_() ? chunk / static_cast<double>(film_.pixels()) : 0);
+}
+
+}  // namespace causticl

@@ -1,0 +1,30 @@
+#include "photons/photon_rays.hpp"
+
+#include <algorithm>
+
+#include "shared/types.h"
+#include "world/flat_scene.hpp"
+
+namespace causticl {
+
+bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
+                        const KernelOptions& options) {
+  static_assert(BRUTE_FORCE_PRIMITIVES <= 64, "brute_force.cl has a bit for each");
+  const bool curves = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                  [](const Object& object) { return object.shape == Object::Shape::bezier; });
+  const bool possible = !curves && bounded_primitives(scene) <= BRUTE_FORCE_PRIMITIVES &&
+                        options.precision == Precision::float32 &&
+                        options.triangle_test == TriangleTest::watertight && device.runs_items_in_turn();
+  // A GPU's items are not helped by vectors within each.
+  return possible && (wanted == PhotonRays::brute_force ||
+                      (wanted == PhotonRays::automatic && device.info().type == "cpu"));
+}
+
+std::string photon_rays_text(const KernelOptions& options, const Device& device) {
+  if (options.brute_force) return "sixteen at a time, each meets every primitive";
+  const bool waves = device.runs_items_in_turn() && options.precision == Precision::float32 &&
+                     options.triangle_test == TriangleTest::watertight;
+  return waves ? "side by side through the tree" : "one by one";
+}
+
+}  // namespace causticl

@@ -1,0 +1,147 @@
+#include "render/several_devices.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <future>
+
+namespace causticl {
+namespace {
+
+/// Calls `work` for each device, all at the same time. Throws what the first that failed threw.
+void for_each(const std::vector<RenderDevice*>& devices, const std::function<void(RenderDevice&)>& work) {
+  std::vector<std::future<void>> running;
+  running.reserve(devices.size());
+  for (RenderDevice* device : devices)
+    running.push_back(std::async(std::launch::async, [&work, device] { work(*device); }));
+  for (auto& one : running) one.wait();
+  for (auto& one : running) one.get();
+}
+
+KernelOptions with_rays(KernelOptions kernels, RayChoice wanted, const Scene& scene, const Device& device) {
+  kernels.camera_packets = packets_chosen(wanted.camera, device, kernels);
+  kernels.brute_force = brute_force_chosen(wanted.photon, scene, device, kernels);
+  return kernels;
+}
+
+/// Whether a pixel's estimates are more even than independent ones, and owe nothing to what pixels share in a
+/// pass: photons, its time, its wavelengths.
+bool even_and_apart(const Scene& scene, const std::vector<std::string>& passes) {
+  return scene.renderer.sampler == Sampler::sobol && !has_motion(scene) &&
+         std::none_of(passes.begin(), passes.end(), [](const auto& pass) { return pass == "photon"; }) &&
+         std::none_of(scene.materials.begin(), scene.materials.end(),
+                      [](const MaterialSpec& material) { return material.dispersion > 0; });
+}
+
+}  // namespace
+
+RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
+                           const std::vector<std::string>& passes, unsigned threads)
+    : device(on),
+      times_before(on.kernel_times()),
+      kept_before(on.kept_programs()),
+      programs(on, with_rays(kernels, rays, what, on), passes),
+      scene(upload_scene(what, on, threads, kernels.triangle_test)),
+      film(on, programs, what.width, what.height, even_and_apart(what, passes)) {}
+
+std::map<std::string, KernelTime> RenderDevice::kernel_times() const {
+  auto times = device.kernel_times();
+  for (const auto& [name, time] : times_before) {
+    times[name].milliseconds -= time.milliseconds;
+    times[name].launches -= time.launches;
+  }
+  std::erase_if(times, [](const auto& entry) { return entry.second.launches == 0; });
+  return times;
+}
+
+SeveralDevices::SeveralDevices(const std::vector<std::unique_ptr<RenderDevice>>& devices)
+    : shares_(devices.size()) {
+  for (const auto& device : devices) devices_.push_back(device.get());
+  began_ = devices_[0]->integrator->began();
+  early_seconds_ = devices_[0]->integrator->early_seconds();
+  devices_[0]->film.complete_by([this] { complete_film(); });
+}
+
+void SeveralDevices::enqueue_pass(std::uint32_t pass) {
+  if (pass == 0) {
+    for_each(devices_, [](RenderDevice& d) {
+      d.integrator->enqueue_pass(0);
+      d.device.queue().finish();
+    });
+    share_out();
+    return;
+  }
+  for_each(devices_, [pass](RenderDevice& d) { d.integrator->trace_share(pass); });
+  std::vector<std::vector<std::byte>> photons;
+  for (RenderDevice* d : devices_) photons.push_back(d->integrator->photons());
+  for_each(devices_, [&](RenderDevice& d) {
+    d.integrator->set_photons(photons);
+    d.integrator->enqueue_pass(pass);
+    d.device.queue().flush();
+  });
+}
+
+/// In proportion to the speed with which each device did the first pass.
+void SeveralDevices::share_out() {
+  std::vector<double> speeds;
+  double all = 0;
+  for (const RenderDevice* d : devices_) {
+    double milliseconds = 0;
+    for (const auto& [name, time] : d->kernel_times()) milliseconds += time.milliseconds;
+    speeds.push_back(1 / std::max(milliseconds, 1e-6));
+    all += speeds.back();
+  }
+  double begin = 0, sum = 0;
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    sum += speeds[i];
+    const double end = i + 1 == devices_.size() ? 1 : sum / all;
+    shares_[i] = {begin, end};
+    devices_[i]->integrator->set_share(shares_[i]);
+    begin = end;
+  }
+}
+
+std::string SeveralDevices::shares_text() const {
+  std::string text = "each pass is shared:";
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%s %.0f%% on ", i ? "," : "",
+                  100 * (shares_[i].end - shares_[i].begin));
+    text += percent + devices_[i]->device.info().name;
+  }
+  return text;
+}
+
+PassIntegrator::Totals SeveralDevices::finish() {
+  Totals totals = devices_[0]->integrator->finish();
+  for (std::size_t i = 1; i < devices_.size(); ++i) {
+    const Totals more = devices_[i]->integrator->finish();
+    totals.rays += more.rays;
+    for (const auto& kind : fault_kinds) totals.faults.*kind.count += more.faults.*kind.count;
+  }
+  return totals;
+}
+
+/// Each device has the statistics of its own pixels.
+std::vector<Channel> SeveralDevices::channels() {
+  auto channels = devices_[0]->integrator->channels();
+  for (std::size_t i = 1; i < devices_.size(); ++i) {
+    const auto its = devices_[i]->integrator->channels();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      auto& values = channels[c].values;
+      const auto first = static_cast<std::ptrdiff_t>(shares_[i].first_of(values.size()));
+      const auto end = static_cast<std::ptrdiff_t>(shares_[i].end_of(values.size()));
+      std::copy(its[c].values.begin() + first, its[c].values.begin() + end, values.begin() + first);
+    }
+  }
+  return channels;
+}
+
+void SeveralDevices::complete_film() {
+  Film& whole = devices_[0]->film;
+  for (std::size_t i = 1; i < devices_.size(); ++i)
+    whole.take_pixels(devices_[i]->film, shares_[i].first_of(whole.pixels()),
+                      shares_[i].count_of(whole.pixels()));
+}
+
+}  // namespace causticl

@@ -1,0 +1,102 @@
+#include "scene/object_bounds.hpp"
+
+#include <algorithm>
+
+namespace causticl {
+
+void BoundingBox::add(Vec3 p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = std::min(low[axis], p[axis]);
+    high[axis] = std::max(high[axis], p[axis]);
+  }
+}
+
+void BoundingBox::add(const BoundingBox& other) {
+  if (other.empty()) return;
+  add(other.low);
+  add(other.high);
+}
+
+void BoundingBox::add_ellipsoid(const Transform& transform, Vec3 centre, Vec3 half_axes) {
+  Vec3 extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 row = transform.rows[static_cast<std::size_t>(axis)];
+    extent[axis] = length({row.x * half_axes.x, row.y * half_axes.y, row.z * half_axes.z});
+  }
+  add(transform.point(centre) - extent);
+  add(transform.point(centre) + extent);
+}
+
+void BoundingBox::add_box(const Transform& transform, Vec3 size) {
+  for (int corner = 0; corner < 8; ++corner)
+    add(transform.point({size.x * ((corner & 1) - 0.5), size.y * ((corner >> 1 & 1) - 0.5),
+                         size.z * ((corner >> 2 & 1) - 0.5)}));
+}
+
+BoundingBox BoundingBox::grown(double margin) const {
+  if (empty()) return *this;
+  const Vec3 by{margin, margin, margin};
+  return {low - by, high + by};
+}
+
+bool overlap(const BoundingBox& a, const BoundingBox& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis])) return false;
+  return true;
+}
+
+bool holds(const BoundingBox& box, Vec3 point) { return overlap(box, {point, point}); }
+
+BoundingBox intersection(const BoundingBox& a, const BoundingBox& b) {
+  if (!overlap(a, b)) return {};
+  BoundingBox result;
+  for (int axis = 0; axis < 3; ++axis) {
+    result.low[axis] = std::max(a.low[axis], b.low[axis]);
+    result.high[axis] = std::min(a.high[axis], b.high[axis]);
+  }
+  return result;
+}
+
+BoundingBox object_bounds(const Scene& scene, const Object& object) {
+  BoundingBox bounds;
+  const double r = object.radius;
+  switch (object.shape) {
+    case Object::Shape::plane:
+      break;  // infinite
+    case Object::Shape::sphere:
+      bounds.add_ellipsoid(object.transform, {}, {r, r, r});
+      break;
+    case Object::Shape::disk:
+      bounds.add_ellipsoid(object.transform, {}, {r, r, 0});
+      break;
+    case Object::Shape::rectangle:
+      bounds.add_box(object.transform, {1, 1, 0});
+      break;
+    case Object::Shape::box:
+      bounds.add_box(object.transform, object.size);
+      break;
+    case Object::Shape::mesh:
+      for (const auto& p : scene.meshes[static_cast<std::size_t>(object.mesh)].positions)
+        bounds.add(object.transform.point({p[0], p[1], p[2]}));
+      break;
+    case Object::Shape::bezier:
+      // A Bezier curve lies in the convex hull of its control points, and so does what it sweeps.
+      for (const auto& p : object.points)
+        bounds.add_ellipsoid(object.transform, {0, p[1], 0}, {p[0], 0, p[0]});
+      break;
+  }
+  return bounds;
+}
+
+BoundingBox swept_bounds(const Scene& scene, const Object& object) {
+  const BoundingBox still = object_bounds(scene, object);
+  BoundingBox swept;
+  if (still.empty()) return swept;
+  for (const double time : scene.camera.shutter) {
+    swept.add(still.low + time * object.motion);
+    swept.add(still.high + time * object.motion);
+  }
+  return swept;
+}
+
+}  // namespace causticl

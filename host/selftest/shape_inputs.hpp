@@ -1,0 +1,32 @@
+// Shapes as the host uploads them, for kernels that are checked on their own.
+#pragma once
+
+#include "selftest/vectors.hpp"
+
+namespace causticl {
+
+inline Shape make_shape(uint type, const Transform& transform, uint curve = 0) {
+  Shape shape{};
+  const Transform inverse = transform.inverse();
+  for (int i = 0; i < 3; ++i) {
+    shape.to_world[i] = to_float4(transform.rows[i], transform.translation[i]);
+    shape.to_local[i] = to_float4(inverse.rows[i], inverse.translation[i]);
+  }
+  shape.sphere = to_float4(transform.translation, length(transform.vector({1, 0, 0})));
+  shape.type = type;
+  shape.material = 7;
+  shape.curve = curve;
+  return shape;
+}
+
+/// The map that a device shape really has: its rows in single precision.
+inline Transform rows_transform(const float4* rows) {
+  Transform result;
+  for (int i = 0; i < 3; ++i) {
+    result.rows[i] = to_vec3(rows[i]);
+    result.translation[i] = rows[i].w;
+  }
+  return result;
+}
+
+}  // namespace causticl

@@ -1,0 +1,25 @@
+// Vectors between host and device, and frames about a direction.
+#pragma once
+
+#include "base/vec.hpp"
+#include "shared/types.h"
+
+namespace causticl {
+
+inline Vec3 to_vec3(float4 v) { return {v.x, v.y, v.z}; }
+inline float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+/// Any right-handed orthonormal frame with z along the unit vector `axis`.
+struct Frame {
+  Vec3 x, y, z;
+  explicit Frame(Vec3 axis) : z(axis) {
+    x = normalize(cross(std::fabs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, axis));
+    y = cross(z, x);
+  }
+  Vec3 to_local(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+  Vec3 to_world(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+}  // namespace causticl

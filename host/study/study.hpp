@@ -1,0 +1,59 @@
+// `causticl study`: what accuracy costs in time on one scene, for every knob that trades one for the other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "format/load_scene.hpp"
+#include "render/render.hpp"
+
+namespace causticl {
+
+class KernelCache;
+
+/// A render as the command line describes it.
+struct RenderSetup {
+  Scene scene;
+  SceneOptions scene_options;  // by which it was loaded
+  RenderOptions options;
+  std::string device;  // as find_device takes it
+};
+
+/// What `study` is told besides the scene and the device.
+struct StudyOptions {
+  std::vector<std::string> knobs;  // names; empty: all
+  double budget = 300;             // seconds in all
+  int seeds = 3;                   // renders of a setting, as far as the budget allows
+  std::string folder;              // -o; empty: the scene's name with -study in the working directory
+  std::string reference;           // a picture to measure errors against; empty: the study makes its own
+  bool restart = false;            // throw away what the folder holds
+};
+
+/// A study as the command line describes it.
+struct StudyRequest {
+  std::string scene;  // file
+  SceneOptions scene_options;
+  StudyOptions study;
+  std::uint32_t seed = 1;
+  std::string device;    // as find_device takes it
+  unsigned threads = 0;  // 0: all
+  std::string kernel_dir;
+  /// What `causticl render` with this scene and these words of the command line renders. Throws UserError.
+  std::function<RenderSetup(const std::vector<std::string>& words)> render_setup;
+};
+
+struct StudyOutcome {
+  std::string summary;  // lines for the user
+  bool interrupted = false;
+};
+
+/// Measures, writing study.json and study.csv into the folder after every render, and study.html at the end
+/// or when interrupted() says so. A study that the folder holds already is continued. `say` gets each line
+/// that tells how it goes. Throws UserError, also for a folder that holds another study.
+StudyOutcome run_study(const StudyRequest& request, KernelCache& kernels,
+                       const std::function<void(const std::string&)>& say,
+                       const std::function<bool()>& interrupted);
+
+}  // namespace causticl

@@ -1,0 +1,89 @@
+#include "study/study_inputs.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "opencl/kernel_sources.hpp"
+
+namespace causticl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const std::string& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) throw UserError(file + ": cannot be read: no regular file");
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw UserError(file + ": cannot be read");
+  return bytes;
+}
+
+std::string fingerprint_of(const std::map<std::string, std::string>& sources) {
+  std::string hash;
+  for (const auto& [name, text] : sources) hash = fingerprint(text, fingerprint(name, hash));
+  return hash;
+}
+
+/// Of every kernel file: those of --kernel-dir, or those in the binary.
+std::string kernels_fingerprint(const std::string& kernel_dir) {
+  std::map<std::string, std::string> sources;
+  if (kernel_dir.empty()) return fingerprint_of(embedded_kernel_sources());
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(kernel_dir, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".cl" || extension == ".h")
+      sources[fs::relative(entry.path(), kernel_dir).string()] = bytes_of(entry.path().string());
+  }
+  return fingerprint_of(sources);
+}
+
+}  // namespace
+
+std::string fingerprint(const std::string& bytes, const std::string& before) {
+  // The length before the rest keeps "ab" after "c" apart from "b" after "ca".
+  const std::string all = std::to_string(before.size()) + ":" + before + bytes;
+  const XXH128_hash_t hash = XXH3_128bits(all.data(), all.size());
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return text;
+}
+
+std::string file_fingerprint(const std::string& file) { return fingerprint(bytes_of(file)); }
+
+std::string scene_fingerprint(const Scene& scene) {
+  std::string hash = file_fingerprint(scene.file);
+  for (const auto& file : scene.assets) hash = fingerprint(bytes_of(file), fingerprint(file, hash));
+  return hash;
+}
+
+std::vector<std::string> deciding_options(const StudyRequest& request) {
+  std::vector<std::string> words;
+  if (request.scene_options.integrator) {
+    words.push_back("--integrator");
+    words.push_back(*request.scene_options.integrator == Integrator::pt ? "pt" : "sppm");
+  }
+  std::vector<std::string> knobs = request.study.knobs;
+  std::sort(knobs.begin(), knobs.end());
+  for (const auto& knob : knobs) {
+    words.push_back("--knobs");
+    words.push_back(knob);
+  }
+  words.push_back("--seeds");
+  words.push_back(std::to_string(request.study.seeds));
+  if (!request.kernel_dir.empty()) {
+    words.push_back("--kernel-dir");
+    words.push_back(request.kernel_dir);
+  }
+  words.push_back("kernels:" + kernels_fingerprint(request.kernel_dir));
+  return words;
+}
+
+}  // namespace causticl

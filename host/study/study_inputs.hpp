@@ -1,0 +1,24 @@
+// What a study was measured of: every byte that its numbers depend on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/study.hpp"
+
+namespace causticl {
+
+/// A hash of `bytes` after what has the hash `before`, as text.
+std::string fingerprint(const std::string& bytes, const std::string& before = "");
+
+/// The hash of a file's bytes. Throws UserError.
+std::string file_fingerprint(const std::string& file);
+
+/// The hash of the scene's file and of every file that it names, names included.
+std::string scene_fingerprint(const Scene& scene);
+
+/// The options of `study` that decide what is rendered, as words of the command line, and the hash of the
+/// kernels' sources. Not those that only decide for how long and what is printed.
+std::vector<std::string> deciding_options(const StudyRequest& request);
+
+}  // namespace causticl

@@ -1,0 +1,160 @@
+#include "world/emitters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "world/environment.hpp"
+
+namespace causticl {
+namespace {
+
+float4 to_float4(Vec3 v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+/// Centre and radius of a sphere around all that is bounded, which light from beyond the scene has to cover.
+/// The sphere about the bounding box, a little larger, so that no rounding in a kernel cuts it.
+float4 scene_sphere(const TreeInput& tree) {
+  Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+  const auto add = [&](const float(&p)[3]) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min<double>(low[axis], p[axis]);
+      high[axis] = std::max<double>(high[axis], p[axis]);
+    }
+  };
+  for (const auto& triangle : tree.triangles)
+    for (const auto& corner : triangle.position) add(corner);
+  for (const auto& shape : tree.shapes) {
+    add(shape.bounds.low);
+    add(shape.bounds.high);
+  }
+  if (!(low.x <= high.x)) return {0, 0, 0, 1};  // infinite planes alone
+  const Vec3 centre = 0.5 * (low + high);
+  const double largest = max_component({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
+  return to_float4(centre, 1.0001 * length(0.5 * (high - low)) + 1e-6 * largest);
+}
+
+/// Where light from beyond the scene has to go.
+struct LitRegion {
+  float4 sphere;    // centre and radius
+  float reach = 1;  // how far the farthest infinite plane is from its centre, in radii, 1 at least
+};
+
+/// The sphere that light from beyond the scene has to cover, all that is bounded in its midst. What infinite
+/// planes are outside of it is far to kernels (cl/lights/horizon.cl), which read it from the records of
+/// planes. Where nothing is bounded it lies about the camera, as large as its distance to the next plane.
+LitRegion lit_region(const Scene& scene, World& world) {
+  LitRegion region{scene_sphere(world.tree)};
+  if (world.plane_count == 0 || !has_infinite_light(scene)) return region;
+  const auto distance_to = [&](uint i, Vec3 point) {
+    const float4* rows = world.shapes[i].to_world;
+    const float4& row = world.shapes[i].to_local[2];
+    return std::fabs(
+        dot(normalize(Vec3{row.x, row.y, row.z}), point - Vec3{rows[0].w, rows[1].w, rows[2].w}));
+  };
+  if (world.tree.triangles.empty() && world.tree.shapes.empty()) {
+    double radius = INFINITY;
+    for (uint i = 0; i < world.plane_count; ++i) {
+      const double distance = distance_to(i, scene.camera.origin);
+      if (distance > 0) radius = std::min(radius, distance);
+    }
+    region.sphere = to_float4(scene.camera.origin, std::isfinite(radius) ? radius : 1);
+  }
+  constexpr float around = 1.5f;  // what lies just beside bounded things gets as much light as these
+  constexpr double farthest = 1000;
+  region.sphere.w *= around;
+  const Vec3 centre{region.sphere.x, region.sphere.y, region.sphere.z};
+  for (uint i = 0; i < world.plane_count; ++i) {
+    world.shapes[i].sphere = region.sphere;
+    const double reach = distance_to(i, centre) / region.sphere.w;
+    region.reach = static_cast<float>(std::clamp<double>(reach, region.reach, farthest));
+  }
+  return region;
+}
+
+double square(float x) { return static_cast<double>(x) * x; }
+
+Emitter delta_emitter(const DeltaLight& light, const LitRegion& region) {
+  Emitter result{};
+  switch (light.kind) {
+    case DeltaLight::Kind::point:
+      result.type = EMITTER_POINT;
+      result.a = to_float4(light.position);
+      result.radiance = to_float4(light.intensity, 4);
+      break;
+    case DeltaLight::Kind::spot: {
+      // 1 - cos x = 2 sin^2(x / 2), which keeps narrow cones exact.
+      const double half = light.angle / 2 * std::numbers::pi / 180;
+      const double sine = std::sin(half / 2), even_sine = std::sin(half * (1 - light.blend) / 2);
+      result.type = EMITTER_SPOT;
+      result.a = to_float4(light.position);
+      result.b = to_float4(light.direction);
+      result.c = to_float4({2 * sine * sine, 2 * even_sine * even_sine, 0});
+      // The falloff is symmetric about 1/2 in the cosine, so that its border counts half.
+      result.radiance = to_float4(light.intensity, static_cast<double>(result.c.x) + result.c.y);
+      break;
+    }
+    case DeltaLight::Kind::directional:
+      result.type = EMITTER_DIRECTIONAL;
+      result.a = region.sphere;
+      result.b = to_float4(light.direction);
+      result.c.x = region.reach;
+      result.radiance = to_float4(light.intensity, square(region.sphere.w));
+      break;
+  }
+  return result;
+}
+
+Emitter environment_emitter(const Environment& environment, const LitRegion& region) {
+  Emitter result{};
+  const double integral = environment_integral(environment);
+  result.type = EMITTER_ENVIRONMENT;
+  result.a = region.sphere;
+  result.c.x = region.reach;
+  result.b = to_float4({environment.rotation / 360, 0, 0});
+  result.radiance = to_float4({integral, integral, integral}, square(region.sphere.w));
+  result.shape = static_cast<uint>(environment.map.width);
+  result.first_area = static_cast<uint>(environment.map.height);
+  return result;
+}
+
+/// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
+/// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
+std::uint64_t share_numbers(World& world) {
+  const auto power = [](const Emitter& light) {
+    return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
+           static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
+  };
+  for (const auto& light : world.emitters) world.emitted_power += power(light);
+  constexpr double numbers = static_cast<double>(std::uint64_t{1} << EMITTER_CHOICE_BITS);
+  double sum = 0;
+  std::uint64_t before = 0, owned = 0;
+  for (auto& light : world.emitters) {
+    sum += power(light);
+    light.cdf = static_cast<std::uint64_t>(std::llround(sum / world.emitted_power * numbers));
+    owned = light.cdf - before;
+    light.probability = static_cast<float>(static_cast<double>(owned) / numbers);
+    before = light.cdf;
+  }
+  return owned;
+}
+
+}  // namespace
+
+void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world) {
+  const bool environment = scene.environment && is_lit(*scene.environment);
+  if (environment || !scene.lights.empty()) {
+    const LitRegion region = lit_region(scene, world);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+      if (!is_lit(scene.lights[i])) continue;
+      world.emitters.push_back(delta_emitter(scene.lights[i], region));
+      world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
+    }
+    if (environment) world.emitters.push_back(environment_emitter(*scene.environment, region));
+  }
+  const std::uint64_t last = share_numbers(world);
+  if (environment) world.environment = environment_table(*scene.environment, last);
+}
+
+}  // namespace causticl

@@ -1,0 +1,59 @@
+#include "world/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace causticl {
+namespace {
+
+/// What each texel's share of all numbers is in proportion to. The sine of a row's middle stands for its
+/// solid angle.
+class TexelWeights {
+ public:
+  explicit TexelWeights(const Image& map) : map_(map) {
+    for (int row = 0; row < map.height; ++row)
+      sines_.push_back(std::sin(std::numbers::pi * (row + 0.5) / map.height));
+  }
+  double operator()(std::size_t texel) const {
+    const float* rgb = map_.rgba.data() + 4 * texel;
+    return std::max({rgb[0], rgb[1], rgb[2]}) * sines_[texel / static_cast<std::size_t>(map_.width)];
+  }
+  std::size_t texels() const { return map_.rgba.size() / 4; }
+  double sum() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < texels(); ++i) sum += (*this)(i);
+    return sum;
+  }
+
+ private:
+  const Image& map_;
+  std::vector<double> sines_;
+};
+
+}  // namespace
+
+double environment_integral(const Environment& environment) {
+  const TexelWeights weight(environment.map);
+  return 2 * std::numbers::pi * std::numbers::pi * weight.sum() / static_cast<double>(weight.texels());
+}
+
+std::vector<EnvironmentTexel> environment_table(const Environment& environment, std::uint64_t numbers) {
+  const TexelWeights weight(environment.map);
+  const double total = weight.sum(), all = static_cast<double>(numbers);
+  std::vector<EnvironmentTexel> table(weight.texels());
+  double sum = 0;
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    sum += weight(i);
+    table[i].cdf = static_cast<std::uint64_t>(std::llround(sum / total * all));
+    if (numbers > 0)
+      table[i].density = static_cast<float>(static_cast<double>(table[i].cdf - before) / all *
+                                            static_cast<double>(table.size()));
+    before = table[i].cdf;
+    std::copy_n(environment.map.rgba.data() + 4 * i, 3, table[i].radiance);
+  }
+  return table;
+}
+
+}  // namespace causticl

@@ -1,0 +1,19 @@
+// The environment's map as kernels draw directions from it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "shared/types.h"
+
+namespace causticl {
+
+/// The integral over all directions of the map's largest channel, interpolated as the kernels do.
+double environment_integral(const Environment& environment);
+
+/// One entry a texel: radiance, and how many of `numbers` it owns, in proportion to the largest channel of
+/// its radiance and to the solid angle of its row.
+std::vector<EnvironmentTexel> environment_table(const Environment& environment, std::uint64_t numbers);
+
+}  // namespace causticl
