@@ -46,7 +46,7 @@ def render(scene, picture, device, *settings):
 
 
 def has_hidden_caustics(scene):
-    """Whether path tracing may miss light: see README, Limits."""
+    """Whether path tracing may miss light: see docs/limits.md."""
     file = folder / f'{scene.stem}-explained.json'
     run('explain', scene, '--json', file)
     called = {e['key'] for e in json.loads(file.read_text())['effects'] if e['called_for']}

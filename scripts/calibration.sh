@@ -10,7 +10,7 @@
 # radius that stays a tenth of the first, rendered by --photon-device if that is told. Its own noise is known: bounds are
 # widened by it, and it is taken off true errors. What was measured is kept in out/calibration/, so that a run that was
 # interrupted goes on where it was. As many pictures as there are processors are rendered side by side: hours for all on two.
-# Prints the table of README.
+# Prints the table of docs/accuracy.md.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 

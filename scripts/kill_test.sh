@@ -121,7 +121,7 @@ echo "renders: $renders runs, $killed killed before their end; no damaged file, 
 
 # Sets `command` to a study of so many seconds.
 study_of() {
-  command=("$causticl" study "$scene" --size 24x16 --knobs "max_depth,alpha" --seeds 2 --budget "$1" --quiet -o "$work/study")
+  command=("$causticl" study "$scene" --size 24x16 --parameters "max_depth,alpha" --seeds 2 --budget "$1" --quiet -o "$work/study")
 }
 
 check_study() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Usage: scripts/numerics.sh [OPTIONS of causticl selftest]
 # Runs the checks of the hard cases (10^6 inputs each, where no option says otherwise) and prints them as the table
-# of README's section on numerics. Takes minutes.
+# of docs/numerics.md. Takes minutes.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 

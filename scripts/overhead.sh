@@ -2,7 +2,7 @@
 # Usage: scripts/overhead.sh [SCENE...]
 # Measures what the error estimate adds to a render, on the named scenes or on the Cornell box and the glass caustic, by
 # kernels as they ship and by a copy without the estimate (tests/bench/without_errors.patch), in turns. Both must give the
-# same picture to the bit. Prints the table of README: milliseconds of the kernels whose source differs, as a share of all
+# same picture to the bit. Prints the table of docs/accuracy.md: milliseconds of the kernels whose source differs, as a share of all
 # kernels' (the median of fifteen pairs in turns, since the machine's speed drifts); seconds of looks at the error, as a
 # share of the passes' (the least of the runs'); and both together. Takes some minutes.
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Usage: scripts/scaling.sh [--quick]
 # How time and memory grow with photons, pixels, triangles, lights and threads, with the exponent of each fitted by
-# least squares between logarithms. Prints README's table of growth. --quick leaves out the largest of each.
+# least squares between logarithms. Prints the table of growth of docs/performance.md. --quick leaves out the largest of each.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Usage: scripts/study.sh [OPTIONS of causticl study]
-# Makes the plot and the table of README's section on what accuracy costs: a study of the Cornell box (300 seconds,
+# Makes the plot and the table of docs/accuracy.md: a study of the Cornell box (300 seconds,
 # where no option says otherwise), whose page is opened in headless Chromium to draw scenes/gallery/study.svg.
 set -euo pipefail
 source "$(dirname "$0")/common.sh"

@@ -2,7 +2,7 @@
 """Usage: study_figure.py FOLDER DOM SVG
 
 Writes the first plot of a study's page, as a browser drew it (DOM, of chromium --dump-dom), to SVG, and prints what
-study.json in FOLDER measured as the table of README's section on what accuracy costs.
+study.json in FOLDER measured as the table of docs/accuracy.md.
 """
 import json
 import re

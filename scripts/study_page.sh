@@ -13,7 +13,7 @@ if [ ! -f "$folder/study.html" ]; then
   build build causticl
   mkdir -p "$folder"
   "$root/build/causticl" study "$root/scenes/cornell_box.json" --size 32x32 -D renderer.photon_sample=5000 \
-    --budget 60 --knobs integrator,photons,alpha -o "$folder"
+    --budget 60 --parameters integrator,photons,alpha -o "$folder"
 fi
 page=$(cd "$folder" && pwd -P)
 profile=$(mktemp -d)

@@ -1,8 +1,8 @@
 // The chi-square test as a check of the test framework.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
+#include "catch2.hpp"
 
 #include "selftest/chi_square.hpp"
 

@@ -1,10 +1,10 @@
 // What the kernel tests share: one device, quick programs, and random inputs from a printed seed.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <string>
 #include <vector>
+#include "catch2.hpp"
 
 #include "opencl/device.hpp"
 #include "opencl/kernel_sources.hpp"

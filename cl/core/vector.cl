@@ -10,19 +10,19 @@
 #if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(CAUSTICL_DOUBLE)
 // The driver vectorises when it makes the kernel of a program, and would warn that it did not before.
 #pragma clang diagnostic ignored "-Wpass-failed"
-#define VECTORISED(looped) ((EFFECTS & (looped)) == 0u)
+#define VECTORISED(not_batched) ((EFFECTS & (not_batched)) == 0u)
 #else
-#define VECTORISED(looped) 0
+#define VECTORISED(not_batched) 0
 #endif
 
-INLINE real3 sum3(real3 a, real3 b) { return (real3)(a.x + b.x, a.y + b.y, a.z + b.z); }
-INLINE real3 difference3(real3 a, real3 b) { return (real3)(a.x - b.x, a.y - b.y, a.z - b.z); }
-INLINE real3 product3(real3 a, real3 b) { return (real3)(a.x * b.x, a.y * b.y, a.z * b.z); }
+INLINE real3 add3(real3 a, real3 b) { return (real3)(a.x + b.x, a.y + b.y, a.z + b.z); }
+INLINE real3 sub3(real3 a, real3 b) { return (real3)(a.x - b.x, a.y - b.y, a.z - b.z); }
+INLINE real3 mul3(real3 a, real3 b) { return (real3)(a.x * b.x, a.y * b.y, a.z * b.z); }
 INLINE real3 scaled3(real s, real3 v) { return (real3)(s * v.x, s * v.y, s * v.z); }
 INLINE real3 quotient3(real3 v, real d) { return (real3)(v.x / d, v.y / d, v.z / d); }
 INLINE real3 negated3(real3 v) { return (real3)(-v.x, -v.y, -v.z); }
 INLINE real3 abs3(real3 v) { return (real3)(fabs(v.x), fabs(v.y), fabs(v.z)); }
-INLINE real3 along3(real3 origin, real t, real3 direction) {
+INLINE real3 ray_at(real3 origin, real t, real3 direction) {
   return (real3)(fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z));
 }
 INLINE real3 cross3(real3 a, real3 b) {

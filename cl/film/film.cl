@@ -32,7 +32,7 @@ INLINE float root_of_squares(float a, float b) {
 // gather() can tell: see pass_film.cl for what becomes of it, of the spread, which goes on as Welford (1962) has it, and of
 // the sum under changing signs. Spread and blur are kept as means: sums of floats would stop growing after 2^24 passes. The
 // spread is kept as a deviation: squares of very dim and very bright light are beyond floats.
-INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pass,
+INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real kernel_bias, uint pass,
                      volatile global Counters *counters) {
   if (!(isfinite(radiance.x) && isfinite(radiance.y) && isfinite(radiance.z))) {
     atomic_inc(&counters->non_finite);
@@ -59,24 +59,24 @@ INLINE bool film_add(global FilmPixel *pixel, real3 radiance, real blur, uint pa
   if (estimates > 0) {
     float deviation = added - luminance(before[0], before[1], before[2]) / estimates;
     float part = 1 / (estimates + 1), kept = estimates * part;
-    pixel->spread = fmin(sqrt(kept) * root_of_squares(pixel->spread, deviation * sqrt(part)), FLT_MAX);
+    pixel->m2_deviation = fmin(sqrt(kept) * root_of_squares(pixel->m2_deviation, deviation * sqrt(part)), FLT_MAX);
   }
-  float alternating = pixel->alternating + sign_of_estimate(index) * added;
-  pixel->alternating = clamp(alternating, -FLT_MAX, FLT_MAX);
+  float signed_half_sum = pixel->signed_half_sum + sign_of_estimate(index) * added;
+  pixel->signed_half_sum = clamp(signed_half_sum, -FLT_MAX, FLT_MAX);
   uint half_of_pass = half_of_passes(pass);
-  float added_blur = isfinite(blur) ? (float)blur : 0.0f;
-  pixel->blur[half_of_pass] += (added_blur - pixel->blur[half_of_pass]) / (passes_of_half(pass, half_of_pass) + 1.0f);
+  float added_kernel_bias = isfinite(kernel_bias) ? (float)kernel_bias : 0.0f;
+  pixel->kernel_bias[half_of_pass] += (added_kernel_bias - pixel->kernel_bias[half_of_pass]) / (passes_of_half(pass, half_of_pass) + 1.0f);
   return true;
 }
 
 // The same for pixel number `index` of `pixels`, with its layers.
-INLINE void film_add_radiance(global FilmPixel *film, uint index, uint pixels, const Radiance *radiance, real blur,
+INLINE void film_add_radiance(global FilmPixel *film, uint index, uint pixels, const Radiance *radiance, real kernel_bias,
                               uint pass, volatile global Counters *counters) {
-  bool added = film_add(film + index, radiance->sum, blur, pass, counters);
-  if (!HAS(OUTPUT_LAYERS)) return;
+  bool added = film_add(film + index, radiance->sum, kernel_bias, pass, counters);
+  if (!HAS(OUTPUT_LIGHT_PASSES)) return;
   if (!added) return;
-  global FilmLayers *layers = (global FilmLayers *)(film + pixels) + index;
-  for (uint i = 0; i < LAYER_COUNT; ++i) {
+  global FilmLightPasses *layers = (global FilmLightPasses *)(film + pixels) + index;
+  for (uint i = 0; i < LIGHT_PASS_COUNT; ++i) {
     float value[3] = {(float)radiance->layer[i].x, (float)radiance->layer[i].y, (float)radiance->layer[i].z};
     for (int c = 0; c < 3; ++c) {
       float hi = layers->sum[i][c], lo = layers->low[i][c];

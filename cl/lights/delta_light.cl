@@ -37,7 +37,7 @@ INLINE Ray delta_light_ray(global const Emitter *emitter, real2 u, real *share) 
   *share = 1;
   if (emitter->type == EMITTER_DIRECTIONAL) {
     ray.direction = convert_real3(emitter->b.xyz);
-    ray.origin = distant_origin(emitter, ray.direction, u);
+    ray.origin = infinite_light_origin(emitter, ray.direction, u);
     return ray;
   }
   ray.origin = convert_real3(emitter->a.xyz);

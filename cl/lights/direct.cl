@@ -11,11 +11,11 @@ INLINE real power_weight(real pdf, real other_pdf) {
 
 // Whether something lies between the ray's origin and the light, which is that far. Adds the ray to *rays and what
 // befell it to `counters`.
-INLINE bool shadowed(const Scene *scene, Ray shadow, real distance, uint *rays, volatile global Counters *counters) {
+INLINE bool occluded_along(const Scene *scene, Ray shadow, real distance, uint *rays, volatile global Counters *counters) {
   ++*rays;
-  uint faults = 0;
-  bool occluded = geometry_occluded(&scene->geometry, shadow, distance, &faults);
-  count_faults(faults, counters);
+  uint diagnostics = 0;
+  bool occluded = geometry_occluded(&scene->geometry, shadow, distance, &diagnostics);
+  count_diagnostics(diagnostics, counters);
   return occluded;
 }
 
@@ -36,8 +36,8 @@ INLINE void attenuate_light(const Scene *scene, Interior interior, const Surface
 INLINE bool light_covered(const Scene *scene, Interior interior, real3 origin, const LightSample *light) {
   if (!nested(scene) || !(scene->nested & NESTED_EMITTERS) || !interior.glass) return false;
   if (!(light->distance < INFINITY) || !(max_component(light->weight) > 0)) return false;
-  real3 d = light->direction, place = along3(origin, light->distance, d);
-  Ray ray = {along3(origin, light->distance - light->margin, d), d};
+  real3 d = light->direction, place = ray_at(origin, light->distance, d);
+  Ray ray = {ray_at(origin, light->distance - light->margin, d), d};
   HitFilter filter = {scene->materials, false};
   HitList list;
   geometry_hits(&scene->geometry, ray, 2 * light->margin, &filter, &list);
@@ -46,7 +46,7 @@ INLINE bool light_covered(const Scene *scene, Interior interior, real3 origin, c
     geometry_surface(&scene->geometry, ray, list.hit[i], &surface);
     real3 n = surface.geometric_normal;
     real error = surface.error + (real)GAMMA(8) * max_component(abs3(place));
-    bool in_contact = list.hit[i].t < light->margin || fabs(dot3(n, difference3(surface.position, place))) <= error_along(error, n);
+    bool in_contact = list.hit[i].t < light->margin || fabs(dot3(n, sub3(surface.position, place))) <= error_along(error, n);
     if (in_contact && dot3(n, d) > 0 && is_dielectric(scene, &surface)) return true;
   }
   return false;
@@ -69,17 +69,17 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
 // Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling. `behind` is the interior
 // beyond the surface, of use with nested dielectrics alone.
 static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                                Interior behind, real3 arriving, real3 n, real3 throughput, real4 random, uint *rays,
+                                Interior behind, real3 wi, real3 n, real3 throughput, real4 random, uint *rays,
                                 volatile global Counters *counters) {
   real3 g = surface->geometric_normal, origin;
-  LightSample light = light_sample_rough(scene, bsdf, surface, dot3(arriving, g) < 0 ? g : -g, random, &origin);
+  LightSample light = light_sample_rough(scene, bsdf, surface, dot3(wi, g) < 0 ? g : -g, random, &origin);
   if (!(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
-  BsdfSample lobe = rough_evaluate(bsdf, surface, arriving, n, light.direction);
+  BsdfSample lobe = rough_evaluate(bsdf, surface, wi, n, light.direction);
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
-  if (nested(scene) && dot3(arriving, g) * dot3(light.direction, g) > 0) interior = behind;
+  if (nested(scene) && dot3(wi, g) * dot3(light.direction, g) > 0) interior = behind;
   if (light_covered(scene, interior, origin, &light)) return (real3)(0, 0, 0);
-  if (shadowed(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
+  if (occluded_along(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   return throughput * lobe.weight * light.weight * (lobe.pdf * power_weight(light.pdf, lobe.pdf));
 }
@@ -89,41 +89,41 @@ typedef struct {
   Ray shadow;
   real distance;    // how far that goes
   real3 reflected;  // radiance to the path if nothing is in the way; zero where no ray need tell
-} UnshadowedLight;
+} LightCandidate;
 
 // Light from emitter `chosen` at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes its share of
 // what arrives) with facing normal n. `arriving` is the direction of the path that found the point. With `weigh_bsdf`, the
 // sample is weighted against BSDF sampling by the power heuristic.
-INLINE UnshadowedLight unshadowed_light(const Scene *scene, uint chosen, const Bsdf *bsdf, const Surface *surface,
-                                        Interior interior, real3 arriving, real3 n, real3 reflectance, real4 random,
+INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const Bsdf *bsdf, const Surface *surface,
+                                        Interior interior, real3 wi, real3 n, real3 reflectance, real4 random,
                                         bool weigh_bsdf) {
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
   real3 g = surface->geometric_normal;
-  real side = dot3(arriving, g) < 0 ? 1 : -1;
+  real side = dot3(wi, g) < 0 ? 1 : -1;
   real3 origin = offset_origin(surface->position, surface->error, g, scaled3(side, g));
   LightSample light = light_sample_from(scene, chosen, origin, random);
   real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
-  bool same_side = dot3(light.direction, g) * dot3(arriving, g) < 0;
+  bool same_side = dot3(light.direction, g) * dot3(wi, g) < 0;
   if (HAS(EFFECT_NESTED) && light_covered(scene, interior, origin, &light)) light.weight = (real3)(0, 0, 0);
   attenuate_light(scene, interior, surface, &light);
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
-  real3 reflected = scaled3(cosine * weight, product3(reflectance, light.weight));
-  UnshadowedLight found = {{origin, light.direction}, light.distance - light.margin,
+  real3 reflected = scaled3(cosine * weight, mul3(reflectance, light.weight));
+  LightCandidate found = {{origin, light.direction}, light.distance - light.margin,
                            choose3(cosine > 0 && same_side, reflected, (real3)(0, 0, 0))};
   return found;
 }
 
 // What of that is reflected to the path.
 static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                          real3 arriving, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
+                          real3 wi, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
                           volatile global Counters *counters) {
-  UnshadowedLight light = unshadowed_light(scene, emitter_choose(scene, random.x, random.w), bsdf, surface, interior,
-                                           arriving, n, reflectance, random, weigh_bsdf);
-  if (!(max_component(light.reflected) > 0) || shadowed(scene, light.shadow, light.distance, rays, counters))
+  LightCandidate light = sample_light_unoccluded(scene, emitter_choose(scene, random.x, random.w), bsdf, surface, interior,
+                                           wi, n, reflectance, random, weigh_bsdf);
+  if (!(max_component(light.reflected) > 0) || occluded_along(scene, light.shadow, light.distance, rays, counters))
     return (real3)(0, 0, 0);
   return light.reflected;
 }
@@ -139,13 +139,13 @@ INLINE real3 escaped_radiance(const Scene *scene, real3 direction, real bsdf_pdf
 // Radiance from one emitter that the medium at `position` scatters to a path that arrives along `arriving`;
 // `throughput` includes the scattering coefficient. With `weigh_phase`, the sample is weighted against sampling of the
 // phase function by the power heuristic.
-static real3 direct_light_medium(const Scene *scene, real3 position, real3 arriving, real3 throughput, real4 random,
+static real3 direct_light_medium(const Scene *scene, real3 position, real3 wi, real3 throughput, real4 random,
                                  bool weigh_phase, uint *rays, volatile global Counters *counters) {
   LightSample light = light_sample(scene, position, random);
   if (!(max_component(light.weight * throughput) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {position, light.direction};
-  if (shadowed(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
-  real phase = phase_density(scene->medium.g, dot3(light.direction, arriving));
+  if (occluded_along(scene, shadow, light.distance - light.margin, rays, counters)) return (real3)(0, 0, 0);
+  real phase = phase_density(scene->medium.g, dot3(light.direction, wi));
   real weight = weigh_phase ? power_weight(light.pdf, phase) : 1;
   return throughput * light.weight * transmittance(scene->medium.extinction, light.distance) * (phase * weight);
 }

@@ -29,7 +29,7 @@ INLINE real horizon_cone(const Geometry *g, real3 position, real3 *axis) {
 }
 
 // diffuse_sample() at a far point: uniform in the cone of the sphere.
-INLINE BsdfSample horizon_sample(const Geometry *g, const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n,
+INLINE BsdfSample horizon_sample(const Geometry *g, const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n,
                                  real4 random) {
   real3 axis;
   real one_minus_cosine = horizon_cone(g, surface->position, &axis);
@@ -38,7 +38,7 @@ INLINE BsdfSample horizon_sample(const Geometry *g, const Bsdf *bsdf, const Surf
   sample.pdf = 1 / (2 * PI * one_minus_cosine);
   real cosine = dot3(sample.direction, n);
   bool same_side =
-      cosine > 0 && dot3(sample.direction, surface->geometric_normal) * dot3(arriving, surface->geometric_normal) < 0;
+      cosine > 0 && dot3(sample.direction, surface->geometric_normal) * dot3(wi, surface->geometric_normal) < 0;
   sample.weight = same_side ? bsdf->color * (cosine * INV_PI / sample.pdf) : (real3)(0, 0, 0);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) sample.weight *= fresnel_transmittance(cosine, bsdf->ior);
   return sample;

@@ -5,7 +5,7 @@
 
 // Where a photon starts that crosses the emitter's sphere along `direction`: a uniform point of the disc that touches
 // the sphere where the light comes from. Density 1 / (pi radius^2) per area across the direction.
-INLINE real3 distant_origin(global const Emitter *emitter, real3 direction, real2 u) {
+INLINE real3 infinite_light_origin(global const Emitter *emitter, real3 direction, real2 u) {
   real3 tangent, bitangent;
   orthonormal_basis(direction, &tangent, &bitangent);
   real2 d = disc_uniform(u);

@@ -82,7 +82,7 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
     x = outward.x, y = outward.y, z = outward.z;
   }
   *normal = (real3)(x, y, z);
-  real3 point = choose3(sphere, sum3(a, scaled3(row[3], *normal)), sum3(sum3(a, scaled3(dx, b)), scaled3(dy, c)));
+  real3 point = choose3(sphere, add3(a, scaled3(row[3], *normal)), add3(add3(a, scaled3(dx, b)), scaled3(dy, c)));
   *pdf = 1 / (real)row[15];
   if (HAS(EFFECT_BEZIER) && type == EMITTER_BEZIER) {
     global const Shape *shape = scene->geometry.shapes + emitter->shape;
@@ -91,7 +91,7 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
     bezier_point(shape, scene->geometry.curves, v, t, &point, normal, &area);
     *pdf = area > 0 ? density / area : 0;
   }
-  real3 size = sum3(sum3(sum3(abs3(a), abs3(b)), abs3(c)), abs3(point));
+  real3 size = add3(add3(add3(abs3(a), abs3(b)), abs3(c)), abs3(point));
   *error = STORED_GAMMA(8) * (max_component(size) + row[3]);
   return point;
 }
@@ -131,7 +131,7 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
   global const float *row = (global const float *)emitter, *power = (global const float *)&emitter->radiance;
   real3 radiance = (real3)(power[0], power[1], power[2]);
   real probability = emitter->probability;
-  real3 to_centre = difference3((real3)(row[0], row[1], row[2]), position);
+  real3 to_centre = sub3((real3)(row[0], row[1], row[2]), position);
   real radius = row[3], centre_distance2 = dot3(to_centre, to_centre);
   bool outside = HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE &&
                  centre_distance2 > radius * radius * (real)1.0002f;
@@ -141,7 +141,7 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     real3 normal;
     real error, area_pdf;
     real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
-    real3 to_light = difference3(point, position);
+    real3 to_light = sub3(point, position);
     real distance2 = dot3(to_light, to_light), length = sqrt(distance2);
     real3 towards = choose3(distance2 > 0, quotient3(to_light, length), (real3)(0, 0, 1));
     x = towards.x, y = towards.y, z = towards.z, distance = length;
@@ -160,7 +160,7 @@ INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 posi
     real3 drawn = cone_uniform_by(random.y, random.z, quotient3(to_centre, sqrt(centre_distance2)), one_minus_cos);
     x = drawn.x, y = drawn.y, z = drawn.z;
     real along = dot3(to_centre, drawn);
-    real3 miss = difference3(to_centre, scaled3(along, drawn));
+    real3 miss = sub3(to_centre, scaled3(along, drawn));
     real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
     distance = along - half_chord;
     pdf = probability / (2 * PI * one_minus_cos);
@@ -224,7 +224,7 @@ INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, r
   if (has_horizon(&scene->geometry))
     ray = horizon_ray(scene, emitter, ray.direction, place, &share);
   else
-    ray.origin = distant_origin(emitter, ray.direction, place);
+    ray.origin = infinite_light_origin(emitter, ray.direction, place);
   *flux = pdf > 0 ? value.radiance * share / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
   return ray;
 }

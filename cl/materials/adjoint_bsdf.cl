@@ -123,7 +123,7 @@ INLINE BsdfSample adjoint_specular_sample(const Bsdf *bsdf, const Surface *surfa
   real cosine_t = fmax(about_s ? ways.cosine_t_s : ways.cosine_t_g, GRAZING_COSINE);
   real3 normal = choose3(about_s, f.shading, f.geometric);
   real along = refracts ? cosine / eta - cosine_t : 2 * cosine;
-  real3 leaving = sum3(choose3(refracts, quotient3(d, eta), d), scaled3(along, normal));
+  real3 leaving = add3(choose3(refracts, quotient3(d, eta), d), scaled3(along, normal));
   real3 tint = bsdf->color;
   if (HAS(EFFECT_CONDUCTOR | EFFECT_PLASTIC)) tint = specular_tint(bsdf, about_s ? f.cosine_s : ways.tint_cosine_g);
   BsdfSample sample = {unit3(leaving), scaled3(all, tint), 0};
@@ -161,9 +161,9 @@ INLINE bool is_tilted_away(const Surface *surface, real3 direction) {
 INLINE real scatter_about_geometric(const Bsdf *bsdf, const Surface *surface, ShadingFrame f, real3 d) {
   if (!(f.cosine_s > 0)) return 1;
   real cosine_t, eta = dot3(surface->geometric_normal, d) < 0 ? bsdf->ior : 1 / bsdf->ior;
-  bool there = is_tilted_away(surface, sum3(d, scaled3(2 * f.cosine_g, f.geometric)));
+  bool there = is_tilted_away(surface, add3(d, scaled3(2 * f.cosine_g, f.geometric)));
   if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS && fresnel_dielectric(f.cosine_g, eta, &cosine_t) < 1)
-    there = there || is_tilted_away(surface, sum3(quotient3(d, eta), scaled3(f.cosine_g / eta - cosine_t, f.geometric)));
+    there = there || is_tilted_away(surface, add3(quotient3(d, eta), scaled3(f.cosine_g / eta - cosine_t, f.geometric)));
   return there ? (real)0.5f : (real)0.5f * (1 - f.between);
 }
 

@@ -52,12 +52,12 @@ typedef struct {
 } BsdfSample;
 
 // Lambert: density cos / pi about the facing normal n.
-INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real4 random) {
+INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real4 random) {
   BsdfSample sample;
   sample.direction = hemisphere_cosine_by(random.x, random.y, n);
   sample.pdf = max(dot3(sample.direction, n), (real)0) * INV_PI;
   // A direction under the true surface, which only a shading normal can give, carries nothing.
-  bool same_side = dot3(sample.direction, surface->geometric_normal) * dot3(arriving, surface->geometric_normal) < 0;
+  bool same_side = dot3(sample.direction, surface->geometric_normal) * dot3(wi, surface->geometric_normal) < 0;
   sample.weight = choose3(same_side, bsdf->color, (real3)(0, 0, 0));
   if (HAS(EFFECT_PLASTIC) && bsdf->coated)
     sample.weight *= fresnel_transmittance(dot3(sample.direction, n), bsdf->ior);
@@ -69,12 +69,12 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
 
 // A mirror image of d about n, and about the geometric normal where that one would end under the surface.
 INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {
-  real3 reflected = difference3(d, scaled3(2 * dot3(d, n), n));
+  real3 reflected = sub3(d, scaled3(2 * dot3(d, n), n));
   real3 g = surface->geometric_normal;
   real cosine = dot3(d, g), side = cosine < 0 ? 1 : -1;
   real x = reflected.x, y = reflected.y, z = reflected.z;
   if (!(side * dot3(reflected, g) >= GRAZING_COSINE)) {
-    real3 lifted = sum3(d, scaled3(side * 2 * fmax(fabs(cosine), GRAZING_COSINE), g));
+    real3 lifted = add3(d, scaled3(side * 2 * fmax(fabs(cosine), GRAZING_COSINE), g));
     x = lifted.x, y = lifted.y, z = lifted.z;
   }
   return unit3((real3)(x, y, z));
@@ -89,7 +89,7 @@ INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d
   real eta = entering ? bsdf->ior : 1 / bsdf->ior;
   real cosine = fmin(-dot3(d, n), (real)1), cosine_t;
   bool refracts = random.z >= fresnel_dielectric(cosine, eta, &cosine_t);
-  real3 slowed = quotient3(d, eta), refracted = sum3(slowed, scaled3(cosine / eta - cosine_t, n));
+  real3 slowed = quotient3(d, eta), refracted = add3(slowed, scaled3(cosine / eta - cosine_t, n));
   // A refracted ray that a shading normal bends back over the surface is bent by the geometric one.
   real3 facing = scaled3(entering ? 1 : -1, g);
   real x = refracted.x, y = refracted.y, z = refracted.z;
@@ -97,7 +97,7 @@ INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d
   if (bent_back) {
     cosine = fmin(-dot3(d, facing), (real)1);
     refracts = fresnel_dielectric(cosine, eta, &cosine_t) < 1;
-    real3 again = sum3(slowed, scaled3(cosine / eta - fmax(cosine_t, GRAZING_COSINE), facing));
+    real3 again = add3(slowed, scaled3(cosine / eta - fmax(cosine_t, GRAZING_COSINE), facing));
     x = again.x, y = again.y, z = again.z;
   }
   real3 leaving;
@@ -151,13 +151,13 @@ typedef struct {
   real eta;  // index beyond / before
 } Facing;
 
-INLINE Facing facing_frame(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n) {
+INLINE Facing facing_frame(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n) {
   Facing facing;
   orthonormal_basis(n, &facing.tangent, &facing.bitangent);
   facing.n = n;
-  facing.v = -(real3)(dot3(arriving, facing.tangent), dot3(arriving, facing.bitangent), dot3(arriving, n));
+  facing.v = -(real3)(dot3(wi, facing.tangent), dot3(wi, facing.bitangent), dot3(wi, n));
   facing.v.z = fmax(facing.v.z, GRAZING_COSINE);
-  facing.eta = dot3(surface->geometric_normal, arriving) < 0 ? bsdf->ior : 1 / bsdf->ior;
+  facing.eta = dot3(surface->geometric_normal, wi) < 0 ? bsdf->ior : 1 / bsdf->ior;
   return facing;
 }
 
@@ -185,14 +185,14 @@ INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leavi
 }
 
 // The lobe in a direction that light sampling chose: weight * pdf is BSDF * cosine, pdf that of bsdf_sample.
-INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real3 direction) {
-  Facing facing = facing_frame(bsdf, surface, arriving, n);
+INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real3 direction) {
+  Facing facing = facing_frame(bsdf, surface, wi, n);
   real3 leaving = (real3)(dot3(direction, facing.tangent), dot3(direction, facing.bitangent), dot3(direction, n));
   real3 h = microfacet_normal(facing.v, leaving, facing.eta);
   // A shading normal may see a direction on the other side than the true surface does: nothing goes there. Nor does
   // a microfacet refract what would leave on the side that it came from (Walter et al. 2007, section 4.2).
   real3 g = surface->geometric_normal;
-  bool reflected = dot3(direction, g) * dot3(arriving, g) < 0;
+  bool reflected = dot3(direction, g) * dot3(wi, g) < 0;
   if (reflected != leaving.z > 0 || (!reflected && !(dot3(leaving, h) < 0))) {
     BsdfSample nothing = {direction, (real3)(0, 0, 0), 0};
     return nothing;
@@ -202,9 +202,9 @@ INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3
 
 // Reflects off or refracts through a visible microfacet. Paths that end under the surface, where light would
 // scatter more than once, carry nothing.
-INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 arriving, real3 n, real4 random,
+INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real4 random,
                                bool radiance) {
-  Facing facing = facing_frame(bsdf, surface, arriving, n);
+  Facing facing = facing_frame(bsdf, surface, wi, n);
   real3 v = facing.v, h = ggx_visible_normal(v, bsdf->alpha, random.xy);
   real cosine = fmin(dot3(v, h), (real)1), cosine_t;
   bool refracts = HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS &&
@@ -213,7 +213,7 @@ INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 a
   BsdfSample sample = rough_lobe(bsdf, &facing, leaving, h, radiance);
   sample.direction = normalize(leaving.x * facing.tangent + leaving.y * facing.bitangent + leaving.z * n);
   real3 g = surface->geometric_normal;
-  bool reflected = dot3(sample.direction, g) * dot3(arriving, g) < 0;
+  bool reflected = dot3(sample.direction, g) * dot3(wi, g) < 0;
   if (refracts == leaving.z > 0 || refracts == reflected) sample.weight = (real3)(0, 0, 0);
   return sample;
 }
@@ -222,8 +222,8 @@ INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 a
 // reflects c T(in) T(out) / (pi eta^2 (1 - c inner)), T the boundary's transmittance (Ashikhmin & Shirley 2000, with
 // the sum over inner reflections of Kubelka 1942). Makes the material one of its lobes, chosen by `random`, its
 // weight divided by the probability.
-INLINE void plastic_choose(Bsdf *bsdf, real3 arriving, real3 n, real random) {
-  real transmittance = fresnel_transmittance(-dot3(arriving, n), bsdf->ior);
+INLINE void plastic_choose(Bsdf *bsdf, real3 wi, real3 n, real random) {
+  real transmittance = fresnel_transmittance(-dot3(wi, n), bsdf->ior);
   real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->inner));
   real coat = 1 - transmittance, share = coat + max_component(base);
   coat = share > 0 ? coat / share : 1;

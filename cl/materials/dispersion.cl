@@ -8,27 +8,27 @@
 #include "materials/bsdf.cl"
 
 // Chooses the channel of `carried` (throughput or flux) that goes on, in proportion to what each carries: it carries all.
-INLINE uint choose_channel(real random, real3 *carried) {
-  real sum = carried->x + carried->y + carried->z, u = random * sum;
+INLINE uint choose_channel(real random, real3 *throughput) {
+  real sum = throughput->x + throughput->y + throughput->z, u = random * sum;
   // Rounding must not choose a channel that carries nothing: the last that carries something takes what is left.
-  if (u < carried->x || !(carried->y + carried->z > 0)) {
-    *carried = (real3)(sum, 0, 0);
+  if (u < throughput->x || !(throughput->y + throughput->z > 0)) {
+    *throughput = (real3)(sum, 0, 0);
     return 0;
   }
-  if (u < carried->x + carried->y || !(carried->z > 0)) {
-    *carried = (real3)(0, sum, 0);
+  if (u < throughput->x + throughput->y || !(throughput->z > 0)) {
+    *throughput = (real3)(0, sum, 0);
     return 1;
   }
-  *carried = (real3)(0, 0, sum);
+  *throughput = (real3)(0, 0, sum);
   return 2;
 }
 
 // Cauchy's index n = A + B / wavelength^2 at glass, of the one channel of `carried` that goes on.
 INLINE void disperse(Bsdf *bsdf, global const Material *material, real3 inverse_wavelength2, real random,
-                     real3 *carried) {
-  real b = material->absorption.w, sum = carried->x + carried->y + carried->z;
+                     real3 *throughput) {
+  real b = material->absorption.w, sum = throughput->x + throughput->y + throughput->z;
   if (bsdf->kind != MATERIAL_GLASS || !(b > 0) || !(sum > 0)) return;
-  uint channel = choose_channel(random, carried);
+  uint channel = choose_channel(random, throughput);
   real3 w = inverse_wavelength2;
   bsdf->ior += b * (channel == 0 ? w.x : channel == 1 ? w.y : w.z);
   if (HAS(EFFECT_ROUGH)) bsdf->alpha = lobe_alpha(material->alpha, bsdf->ior);

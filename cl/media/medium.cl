@@ -18,32 +18,32 @@ INLINE real3 transmittance(real3 extinction, real distance) {
 // over the density of the distance (per unit length; times the medium's scattering it is what is scattered) or over
 // the probability of none, either averaged over the choice of channel (the balance heuristic): the sum of its
 // channels after scattering is never more than before.
-INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 *carried, real *distance) {
-  real sum = carried->x + carried->y + carried->z;
+INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 *throughput, real *distance) {
+  real sum = throughput->x + throughput->y + throughput->z;
   if (!(sum > 0) || !(max_component(medium->extinction) > 0)) return false;
   real u = random.x * sum;
-  real3 share = *carried / sum;
+  real3 share = *throughput / sum;
   // Rounding must not choose a channel that carries nothing.
-  bool first = u < carried->x || !(carried->y + carried->z > 0);
-  bool second = u < carried->x + carried->y || !(carried->z > 0);
+  bool first = u < throughput->x || !(throughput->y + throughput->z > 0);
+  bool second = u < throughput->x + throughput->y || !(throughput->z > 0);
   real extinction = first ? medium->extinction.x : second ? medium->extinction.y : medium->extinction.z;
   *distance = extinction > 0 ? -log1p(-random.y) / extinction : (real)INFINITY;
   bool interacts = *distance < t_max;
   real3 left = transmittance(medium->extinction, interacts ? *distance : t_max);
-  *carried *= left / (interacts ? dot3(share, medium->extinction * left) : dot3(share, left));
+  *throughput *= left / (interacts ? dot3(share, medium->extinction * left) : dot3(share, left));
   return interacts;
 }
 
 // Segments of this length are what a ray of a camera path is cut into, from its origin on: the one that holds `distance`,
 // which medium_flight drew for a path that carried `carried`, begins at *begin and is *length long. Returns what the
 // path carries to its beginning over the probability of any distance within it.
-INLINE real3 medium_segment(const Medium *medium, real3 carried, real t_max, real distance, real segment, real *begin,
+INLINE real3 medium_segment(const Medium *medium, real3 throughput, real t_max, real distance, real segment, real *begin,
                             real *length) {
   *begin = floor(distance / segment) * segment;
   *length = fmin(segment, t_max - *begin);
   real3 left = transmittance(medium->extinction, *begin);
-  real probability = dot3(carried, -left * expm1(-medium->extinction * *length)) / (carried.x + carried.y + carried.z);
-  return probability > 0 ? carried * left / probability : (real3)(0, 0, 0);
+  real probability = dot3(throughput, -left * expm1(-medium->extinction * *length)) / (throughput.x + throughput.y + throughput.z);
+  return probability > 0 ? throughput * left / probability : (real3)(0, 0, 0);
 }
 
 // Henyey & Greenstein's phase function, per solid angle, for light that is turned by an angle with this cosine.

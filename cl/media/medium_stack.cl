@@ -8,7 +8,7 @@
 #include "shared/effects.h"
 #include "core/diagnostics.cl"
 
-// Bodies that hold one point, at most. What is entered beyond that is left out and counted (FAULT_MEDIA_FULL).
+// Bodies that hold one point, at most. What is entered beyond that is left out and counted (DIAGNOSTIC_MEDIA_FULL).
 #define MEDIUM_STACK_CAPACITY 8u
 
 #define MEDIUM_OUTSIDE 0xffffffffu  // what lies outside of all bodies
@@ -36,9 +36,9 @@ INLINE bool medium_stack_holds(const MediumStack *stack, uint material) {
 }
 
 // Enters a body. Adds to *faults where there is no room.
-INLINE void medium_stack_enter(MediumStack *stack, uint material, uint *faults) {
+INLINE void medium_stack_enter(MediumStack *stack, uint material, uint *diagnostics) {
   if (stack->count == MEDIUM_STACK_CAPACITY) {
-    *faults |= FAULT_MEDIA_FULL;
+    *diagnostics |= DIAGNOSTIC_MEDIA_FULL;
     return;
   }
   uint i = stack->count++;

@@ -14,12 +14,12 @@
 #include "traversal/primary_hits.cl"
 
 // The ray with which path number `sample` of pixel (x, y) begins. `even`: as PathSampler.sobol is not 0.
-INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even) {
+INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool low_discrepancy) {
   uint samples = params->visible_points;
-  PathSampler sampler = path_sampler(params->seed, params->pass, y * params->width + x, sample, samples, even);
-  real4 film = path_random4_parts(&sampler, DIM_FILM);
+  PathSampler sampler = path_sampler(params->seed, params->pass, y * params->width + x, sample, samples, low_discrepancy);
+  real4 film = path_random4_soa(&sampler, DIM_FILM);
   real place_x = film.x, place_y = film.y;
-  if (!even) {  // independent numbers are spread over strata of the pixel
+  if (!low_discrepancy) {  // independent numbers are spread over strata of the pixel
     real2 place = camera_stratum(sample, samples, film.xy);
     place_x = place.x, place_y = place.y;
   }
@@ -32,22 +32,22 @@ INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
 // meets, in either case. Returns the number of rays traced.
 //
-// Where receivers are found side by side, a path that comes to one is added to `receivers` in place of that.
+// Where first diffuse vertices are found in a batch, a path that comes to one is added to `first diffuse vertices` in place of that.
 OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, global VisiblePoint *visible_points,
-                         volatile global Counters *counters, global const SppmPixel *pixels, Receivers *receivers,
-                         uint *receiver_count) {
+                         volatile global Counters *counters, global const SppmPixel *pixels, DiffuseVertices *diffuse_vertices,
+                         uint *diffuse_vertex_count) {
   PathSampler sampler = chunk_sampler(params, params->visible_points, index);
   RandomStream stream = sampler.stream;
   // Where the visible point will be.
-  global const FirstHit *first = (global const FirstHit *)visible_points + index;
-  Ray ray = FIRST_HITS_FOUND ? first_ray(first)
+  global const PrimaryHit *first = (global const PrimaryHit *)visible_points + index;
+  Ray ray = PRIMARY_HITS_FOUND ? first_ray(first)
                              : path_ray(params, sampler.pixel % params->width, sampler.pixel / params->width,
                                         index % params->visible_points, params->sobol != 0);
 
   VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
   real3 throughput = (real3)(1, 1, 1);
   Radiance radiance = radiance_none();
-  uint history = HISTORY_NO_RECEIVER;
+  uint prefix = PREFIX_NO_DIFFUSE;
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
@@ -60,19 +60,19 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   for (uint depth = 0; depth <= params->max_depth; ++depth) {
     Hit hit = hit_none(INFINITY);
     ++rays;
-    bool met = FIRST_HITS_FOUND && depth == 0 ? first_hit(first, &hit)
+    bool did_hit = PRIMARY_HITS_FOUND && depth == 0 ? primary_hit(first, &hit)
                                               : media_closest(scene, &boundary.media, ray, &hit);
-    count_faults(hit.faults, counters);
-    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, met, interior)) {
+    count_diagnostics(hit.diagnostics, counters);
+    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, did_hit, interior)) {
       real distance, begin, length;
       real3 before = throughput;
       if (medium_flight(&scene->medium, hit.t, path_random_at(&sampler, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
         if (depth == params->max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
-        point.normal = IN_MEDIUM | receiver_mark(history);
-        history = history_after(history, false);
+        point.normal = IN_MEDIUM | diffuse_vertex_mark(prefix);
+        prefix = prefix_after(prefix, false);
         if (shadow_rays)
-          radiance_add(&radiance, history,
+          radiance_add(&radiance, prefix,
                        direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
                                            path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
         real3 weight = medium_segment(&scene->medium, before, hit.t, distance, params->segment, &begin, &length);
@@ -82,14 +82,14 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
         break;
       }
     }
-    if (!met) {
+    if (!did_hit) {
       if (HAS(EFFECT_ENVIRONMENT) && !counted && !beyond)
-        radiance_add(&radiance, history, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
+        radiance_add(&radiance, prefix, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
       break;
     }
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
     if (scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE) {
-      receivers_put(receivers, (*receiver_count)++, sampler.pixel, index % params->visible_points, ray, hit, throughput,
+      diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, sampler.pixel, index % params->visible_points, ray, hit, throughput,
                     radiance.sum, depth, counted);
       return rays;
     }
@@ -105,7 +105,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     real3 emission = emission_at(material, &surface, ray.direction);
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-    if (!counted && !beyond) radiance_add(&radiance, history, throughput * emission);
+    if (!counted && !beyond) radiance_add(&radiance, prefix, throughput * emission);
     if (depth == params->max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
@@ -114,11 +114,11 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
                   &throughput);
     real4 random = path_random_at(&sampler, depth, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
-      counted = look_aside(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, history, stream,
+      counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
                            depth, params->max_depth, counted, &radiance, &rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
-    if (!RECEIVERS_SIDE_BY_SIDE && bsdf.kind == MATERIAL_DIFFUSE) {
+    if (!DIFFUSE_VERTICES_BATCHED && bsdf.kind == MATERIAL_DIFFUSE) {
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
@@ -127,16 +127,16 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       bool several = params->plane_count > 1 && has_horizon(&scene->geometry);
       bool goes_on = several && (!counts || random_at(stream, depth, DIM_CHANNEL).y < (real)0.5f);
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
-      point.normal = normal_pack(side) | receiver_mark(history);
+      point.normal = normal_pack(side) | diffuse_vertex_mark(prefix);
       real radius;
       if (probe_wanted(params, pixels, sampler.pixel, index % params->visible_points, &radius))
-        point.normal |= coverage_probe(scene, hit, surface.position, side, radius * radius,
-                                       path_random_at(&sampler, depth, DIM_COVERAGE), &rays, counters);
-      history = history_after(history, false);
+        point.normal |= kernel_area_probe(scene, hit, surface.position, side, radius * radius,
+                                       path_random_at(&sampler, depth, DIM_KERNEL_AREA), &rays, counters);
+      prefix = prefix_after(prefix, false);
       real4 chosen = path_random_at(&sampler, depth, DIM_LIGHT);
       bool lit_here = shadow_rays || (far && lit_from_beyond(scene, chosen));
       if (counts && lit_here && !media_covered(scene, &boundary.media))
-        radiance_add(&radiance, history,
+        radiance_add(&radiance, prefix,
                      direct_light(scene, &bsdf, &surface, interior, ray.direction, n, weight, chosen, false, &rays,
                                   counters));
       // Half of the paths end where they count, for what photons bring; the others go on.
@@ -159,12 +159,12 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       break;
     }
 
-    history = history_after(history, bsdf_is_specular(&bsdf));
+    prefix = prefix_after(prefix, bsdf_is_specular(&bsdf));
     bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
     bool weigh_lights = (shadow_rays || delta_lights) && bsdf_is_rough(&bsdf) && !beyond;
     if (weigh_lights && !media_covered(scene, &boundary.media)) {
       real3 n = facing_normal(&surface, ray.direction);
-      radiance_add(&radiance, history,
+      radiance_add(&radiance, prefix,
                    direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
                                       path_random_at(&sampler, depth, DIM_LIGHT), &rays, counters));
     }
@@ -179,30 +179,30 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   }
   vstore3(radiance.sum, 0, point.radiance);
   visible_points[index] = point;
-  if (HAS(OUTPUT_LAYERS)) {
-    global VisibleLayers *layers = visible_layers(visible_points, params) + index;
-    for (uint i = 0; i < LAYER_COUNT; ++i) vstore3(radiance.layer[i], 0, layers->radiance[i]);
+  if (HAS(OUTPUT_LIGHT_PASSES)) {
+    global VisibleLightPasses *layers = visible_layers(visible_points, params) + index;
+    for (uint i = 0; i < LIGHT_PASS_COUNT; ++i) vstore3(radiance.layer[i], 0, layers->radiance[i]);
   }
   if (HAS(EFFECT_MEDIUM)) vstore3(segment, 0, visible_segments(visible_points, params)[index].offset);
   return rays;
 }
 
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
 // Paths [first, end) of the chunk. Returns the number of rays.
 OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, uint end,
                           global VisiblePoint *visible_points, volatile global Counters *counters, global const SppmPixel *pixels) {
-  Receivers receivers;
-  uint count = 0, rays = 0, others[WAVE_CAPACITY], other_count = 0, samples = params->visible_points;
+  DiffuseVertices diffuse_vertices;
+  uint count = 0, rays = 0, others[STREAM_CAPACITY], other_count = 0, samples = params->visible_points;
   uint pixel = params->first_pixel + first / samples, sample = first % samples;
   for (uint index = first; index < end; ++index) {
     bool receives = false;
-    if (FIRST_HITS_FOUND) {
+    if (PRIMARY_HITS_FOUND) {
       // Most paths end at what they meet first. Lists without branches, since where they do is as good as random.
-      global const FirstHit *found = (global const FirstHit *)visible_points + index;
+      global const PrimaryHit *found = (global const PrimaryHit *)visible_points + index;
       Hit hit = hit_none(INFINITY);
-      if (first_hit(found, &hit))
+      if (primary_hit(found, &hit))
         receives = scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE;
-      receivers_put(&receivers, count, pixel, sample, first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), 0, false);
+      diffuse_vertices_put(&diffuse_vertices, count, pixel, sample, first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), 0, false);
     }
     others[other_count] = index;
     count += receives ? 1u : 0u;
@@ -212,22 +212,22 @@ OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, 
   }
   rays += count;
   for (uint i = 0; i < other_count; ++i)
-    rays += camera_path(scene, params, others[i], visible_points, counters, pixels, &receivers, &count);
-  return rays + receivers_finish(scene, params, count, &receivers, visible_points, pixels, counters);
+    rays += camera_path(scene, params, others[i], visible_points, counters, pixels, &diffuse_vertices, &count);
+  return rays + diffuse_vertices_finish(scene, params, count, &diffuse_vertices, visible_points, pixels, counters);
 }
 #endif
 
-// Traces the camera paths of a chunk. Where they end side by side, one item of a work-group traces those of all.
+// Traces the camera paths of a chunk. Where they end in a batch, one item of a work-group traces those of all.
 kernel void trace_camera(SCENE_PARAMETERS, global VisiblePoint *visible_points, volatile global Counters *counters,
                          Params params, global const SppmPixel *pixels, global const WallGrid *walls) {
   uint index = get_global_id(0), rays = 0, paths = params.pixel_count * params.visible_points;
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
   if (get_local_id(0) != 0 || index >= paths) return;
   SCENE_INIT(params);
   if (HAS(EFFECT_WALLS)) scene.walls = walls;
   uint end = min(index + (uint)get_local_size(0), paths);
-  for (; index < end; index += WAVE_CAPACITY)
-    rays += camera_paths(&scene, &params, index, min(index + WAVE_CAPACITY, end), visible_points, counters, pixels);
+  for (; index < end; index += STREAM_CAPACITY)
+    rays += camera_paths(&scene, &params, index, min(index + STREAM_CAPACITY, end), visible_points, counters, pixels);
   count_rays(rays, counters);
 #else
   local uint group_rays[LARGEST_WORK_GROUP];
@@ -251,7 +251,7 @@ kernel void surroundings(SCENE_PARAMETERS, global const VisiblePoint *visible_po
   distances[i] = -1;
   if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0)) return;
   RandomStream stream = {params.seed, params.pass, i, 0, 0};
-  real4 random = random4(stream, DIM_COVERAGE);
+  real4 random = random4(stream, DIM_KERNEL_AREA);
   real3 position = vload3(0, point.position), n = (real3)(0, 0, 1), direction = sphere_uniform(random.xy);
   Ray ray = {position, direction};
   if (!(HAS(EFFECT_MEDIUM) && (point.normal & IN_MEDIUM))) {
@@ -261,19 +261,19 @@ kernel void surroundings(SCENE_PARAMETERS, global const VisiblePoint *visible_po
     ray.origin = position + (real)1e-5f * max_component(fabs(position)) * n;
   }
   Hit hit = hit_none(INFINITY);
-  bool met = geometry_closest(&scene.geometry, ray, &hit);
-  count_faults(hit.faults, counters);
-  distances[i] = met ? (float)hit.t : INFINITY;
+  bool did_hit = geometry_closest(&scene.geometry, ray, &hit);
+  count_diagnostics(hit.diagnostics, counters);
+  distances[i] = did_hit ? (float)hit.t : INFINITY;
 }
 
 #ifdef CAMERA_PACKETS
 // What the paths of trace_camera meet first. Every sixteenth item traces a packet, so that work-groups stay small pieces
 // of the whole.
-kernel void first_hits(SCENE_PARAMETERS, global FirstHit *hits, volatile global Counters *counters, Params params,
+kernel void primary_hits(SCENE_PARAMETERS, global PrimaryHit *hits, volatile global Counters *counters, Params params,
                        uint packets) {
   uint index = get_global_id(0) / PACKET_RAYS;
   if (get_global_id(0) % PACKET_RAYS != 0 || index >= packets) return;
   GEOMETRY_INIT(params.plane_count)
-  first_hits_of(&geometry, &params, params.visible_points, index, hits, counters);
+  primary_hits_of(&geometry, &params, params.visible_points, index, hits, counters);
 }
 #endif

@@ -6,7 +6,7 @@
 
 // Squares of the blur that are less than this many times what noise makes of them are none: with 1, a third of the pixels
 // without any blur would pass for blurred, and their error with them.
-#define NOISE_OF_BLUR 2.0f
+#define NOISE_OF_KERNEL_BIAS 2.0f
 
 // What of a pixel's variance, in PixelError.noise, is that of its neighbours. Rare bright paths have not been seen in most
 // pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
@@ -19,12 +19,12 @@
 
 // Pixels to each side over which the noise of halves is compared with that of passes. Seven times seven tell a variance
 // to a fifth.
-#define HALVES_REACH 3
+#define HALF_BUFFERS_REACH 3
 
 // The bias of a kernel over its difference to one of half the radius. Where illumination is smooth the bias goes with
 // the area (Hachisuka, Jarosz & Jensen 2010, equation 10), and this is 4/3; along edges, of caustics and of shadows,
 // the band that is wrong is as wide as the radius, and this is 2. Most of what is wrong lies along edges.
-#define BIAS_OF_BLUR 2.0f
+#define BIAS_OF_KERNEL 2.0f
 
 // The window of at most 2 reach + 1 pixels around x that lies in [0, size): *first and its end.
 INLINE uint window_of(uint x, uint size, uint reach, uint *first) {
@@ -45,15 +45,15 @@ INLINE float unit_around(global const FilmPixel *film, uint width, uint height, 
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) {
       global const FilmPixel *pixel = film + j * width + i;
-      largest = fmax(largest, fmax(pixel->spread, fmax(fabs(pixel->blur[0]), fabs(pixel->blur[1]))));
+      largest = fmax(largest, fmax(pixel->m2_deviation, fmax(fabs(pixel->kernel_bias[0]), fabs(pixel->kernel_bias[1]))));
     }
   return largest > 0 ? ldexp(1.0f, -clamp(ilogb(largest), -100, 100)) : 1.0f;
 }
 
 // In squared units, as all variances here.
 INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes, float unit) {
-  float spread = pixel->spread * unit;
-  return spread * spread / fmax(film_estimates(pixel, passes) - 1, 1.0f);
+  float m2_deviation = pixel->m2_deviation * unit;
+  return m2_deviation * m2_deviation / fmax(film_estimates(pixel, passes) - 1, 1.0f);
 }
 
 // The mean of variances over the window around (x, y).
@@ -67,24 +67,24 @@ INLINE float variance_around(global const FilmPixel *film, uint width, uint heig
 }
 
 // Half of the difference between the means of one half of the passes and of the other.
-INLINE float half_difference(global const FilmPixel *pixel, uint passes) {
+INLINE float half_buffer_difference(global const FilmPixel *pixel, uint passes) {
   uint estimates = passes - pixel->left_out;
   float each = 1 / fmax((float)estimates, 1.0f);
   float mean = luminance(pixel->sum[0], pixel->sum[1], pixel->sum[2]) * each;
   float unpaired = estimates & 1u ? sign_of_estimate(estimates - 1) * mean : 0.0f;
-  return (pixel->alternating - unpaired) * each;
+  return (pixel->signed_half_sum - unpaired) * each;
 }
 
 // The variance of means around (x, y) over what it were if a pixel's estimates were independent of each other. The
 // difference of halves tells it, since these are independent, but only where it is not that of the pixels beside.
 INLINE float share_of_variance(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes,
                                float unit) {
-  uint left, top, right = window_of(x, width, HALVES_REACH, &left), bottom = window_of(y, height, HALVES_REACH, &top);
+  uint left, top, right = window_of(x, width, HALF_BUFFERS_REACH, &left), bottom = window_of(y, height, HALF_BUFFERS_REACH, &top);
   float squares = 0, variances = 0;
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) {
       global const FilmPixel *pixel = film + j * width + i;
-      float difference = half_difference(pixel, passes) * unit;
+      float difference = half_buffer_difference(pixel, passes) * unit;
       squares += difference * difference;
       variances += variance_of_mean(pixel, passes, unit);
     }
@@ -97,21 +97,21 @@ INLINE float share_of_variance(global const FilmPixel *film, uint width, uint he
 typedef struct {
   float mean, deviation;
   uint pixels;
-} Blur;
-INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
+} KernelBias;
+INLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
   float first = 0, second = 0;
-  Blur blur = {0, 0, 0};
+  KernelBias kernel_bias = {0, 0, 0};
   for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
-    for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++blur.pixels) {
-      first += film[j * width + i].blur[0] * unit;
-      second += film[j * width + i].blur[1] * unit;
+    for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++kernel_bias.pixels) {
+      first += film[j * width + i].kernel_bias[0] * unit;
+      second += film[j * width + i].kernel_bias[1] * unit;
     }
-  if (blur.pixels == 0) return blur;
-  first /= (float)blur.pixels;
-  second /= (float)blur.pixels;
-  blur.mean = (first + second) / 2;
-  blur.deviation = (first - second) / 2;
-  return blur;
+  if (kernel_bias.pixels == 0) return kernel_bias;
+  first /= (float)kernel_bias.pixels;
+  second /= (float)kernel_bias.pixels;
+  kernel_bias.mean = (first + second) / 2;
+  kernel_bias.deviation = (first - second) / 2;
+  return kernel_bias;
 }
 
 // Error of `pixel` after `passes` passes, in luminance. `even` tells that a pixel's estimates are more even than
@@ -124,20 +124,20 @@ INLINE Blur blur_around(global const FilmPixel *film, uint width, uint height, i
 //   bias:  its absolute value, from the blur around the pixel, once of each half of the passes. Both have noises of their
 //          own, so that half their difference is as noisy as their mean: the square of the first, over the pixel's window
 //          and the eight beside it, is what the square of the second owes to noise.
-//   drawn: half_difference(). It is made of the same estimates as the error of their mean, but for signs, and has its
+//   drawn: half_buffer_difference(). It is made of the same estimates as the error of their mean, but for signs, and has its
 //          variance and kurtosis.
 INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes,
-                              bool even) {
+                              bool low_discrepancy) {
   uint x = pixel % width, y = pixel / width;
   float unit = unit_around(film, width, height, x, y);
   float pooled = variance_around(film, width, height, x, y, REACH, passes, unit);
   float further = variance_around(film, width, height, x, y, BOUND_REACH, passes, unit);
   float bound = fmax(pooled, BOUND_PASSES / (BOUND_PASSES + passes) * further);
-  Blur own = blur_around(film, width, height, (int)x, (int)y, unit);
+  KernelBias own = kernel_bias_around(film, width, height, (int)x, (int)y, unit);
   float noise = 0, windows = 0;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
-      Blur beside = blur_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), unit);
+      KernelBias beside = kernel_bias_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), unit);
       noise += beside.deviation * beside.deviation;
       windows += beside.pixels > 0 ? 1.0f : 0.0f;
     }
@@ -145,19 +145,19 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   global const FilmPixel *p = film + pixel;
   PixelError error;
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
-  float share = even ? share_of_variance(film, width, height, x, y, passes, unit) : 1.0f;
+  float share = low_discrepancy ? share_of_variance(film, width, height, x, y, passes, unit) : 1.0f;
   float own_variance = variance_of_mean(p, passes, unit);
   error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * own_variance + NEIGHBOURS_SHARE * pooled)) / unit;
   error.pooled_noise = sqrt(share * bound) / unit;
-  error.bias = BIAS_OF_BLUR * sqrt(fmax(own.mean * own.mean - NOISE_OF_BLUR * noise / windows, 0.0f)) / unit;
-  error.drawn = half_difference(p, passes);
+  error.bias = BIAS_OF_KERNEL * sqrt(fmax(own.mean * own.mean - NOISE_OF_KERNEL_BIAS * noise / windows, 0.0f)) / unit;
+  error.half_difference = half_buffer_difference(p, passes);
   if (p->unknown != 0) error.bias = INFINITY;
   return error;
 }
 
 // errors[i] = error of pixel i * stride, for i < count.
 kernel void pixel_errors(global const FilmPixel *film, global PixelError *errors, uint width, uint height,
-                         uint passes, uint stride, uint count, uint even) {
+                         uint passes, uint stride, uint count, uint low_discrepancy) {
   uint i = get_global_id(0);
-  if (i < count) errors[i] = pixel_error(film, width, height, i * stride, passes, even != 0);
+  if (i < count) errors[i] = pixel_error(film, width, height, i * stride, passes, low_discrepancy != 0);
 }

@@ -49,16 +49,16 @@ kernel void count_around(global VisiblePoint *visible_points, global const uint 
   photon_counts[i] = nothing ? COUNT_NOTHING : (uint)(count + (real)0.5f);
 }
 
-// Adds to each layer what the photons of it bring by `weight`; beyond the receiver all is indirect.
-INLINE void layers_gathered(Radiance *radiance, const Gathered *sum, real3 weight, bool beyond) {
+// Adds to each layer what the photons of it bring by `weight`; beyond the first diffuse vertex all is indirect.
+INLINE void light_passes_gathered(Radiance *radiance, const Gathered *sum, real3 weight, bool beyond) {
   real3 direct = weight * (real3)(sum->direct_red, sum->direct_green, sum->direct_blue);
   real3 caustic = weight * (real3)(sum->caustic_red, sum->caustic_green, sum->caustic_blue);
   real3 indirect = weight * (real3)(sum->red - sum->direct_red - sum->caustic_red,
                                     sum->green - sum->direct_green - sum->caustic_green,
                                     sum->blue - sum->direct_blue - sum->caustic_blue);
-  radiance->layer[beyond ? LAYER_INDIRECT : LAYER_DIRECT] += direct;
-  radiance->layer[beyond ? LAYER_INDIRECT : LAYER_CAUSTIC] += caustic;
-  radiance->layer[LAYER_INDIRECT] += indirect;
+  radiance->layer[beyond ? LIGHT_PASS_INDIRECT : LIGHT_PASS_DIRECT] += direct;
+  radiance->layer[beyond ? LIGHT_PASS_INDIRECT : LIGHT_PASS_CAUSTIC] += caustic;
+  radiance->layer[LIGHT_PASS_INDIRECT] += indirect;
 }
 
 // One pixel: equation (7) of Hachisuka & Jensen 2009 for this pass, averaged over its visible points, goes to
@@ -73,7 +73,7 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   uint index = params.first_pixel + i;
   SppmPixel pixel = pixels[index];
   for (uint s = 0; s < params.visible_points; ++s)
-    pixel.coverage = coverage_add(pixel.coverage, visible_points[i * params.visible_points + s].normal, params.pass);
+    pixel.coverage = kernel_area_add(pixel.coverage, visible_points[i * params.visible_points + s].normal, params.pass);
   real radius2 = params.radius2 > 0 ? (real)params.radius2 : (real)pixel.radius2_hi;
   real3 reflected = (real3)(0, 0, 0), reflected_near = (real3)(0, 0, 0);
   Radiance radiance = radiance_none();
@@ -86,15 +86,15 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
     real wider = kind_radius2(&params, kind);
     float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
-    share_of_kind[kind] = 1 / (wider * coverage_of(pixel.coverage, of_probes));
-    near_share_of_kind[kind] = 1 / (wider * coverage_of(pixel.coverage, of_probes / 2));
+    share_of_kind[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes));
+    near_share_of_kind[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes / 2));
   }
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
     radiance.sum += vload3(0, point.radiance);
-    if (HAS(OUTPUT_LAYERS)) {
-      global const VisibleLayers *layers = visible_layers(visible_points, &params);
-      for (uint k = 0; k < LAYER_COUNT; ++k)
+    if (HAS(OUTPUT_LIGHT_PASSES)) {
+      global const VisibleLightPasses *layers = visible_layers(visible_points, &params);
+      for (uint k = 0; k < LIGHT_PASS_COUNT; ++k)
         radiance.layer[k] += vload3(0, layers[i * params.visible_points + s].radiance[k]);
     }
     real3 weight = vload3(0, point.weight);
@@ -125,50 +125,50 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
       reflected += share * (real3)(sum.red, sum.green, sum.blue);
       reflected_near += share_near * (real3)(sum.near_red, sum.near_green, sum.near_blue);
       found = add_sat(found, sum.count);
-      if (HAS(OUTPUT_LAYERS) && sum.count > 0)
-        layers_gathered(&radiance, &sum, share * density, point.normal & BEYOND_RECEIVER);
+      if (HAS(OUTPUT_LIGHT_PASSES) && sum.count > 0)
+        light_passes_gathered(&radiance, &sum, share * density, point.normal & BEYOND_DIFFUSE);
     }
   }
-  real3 blur = (reflected - 4 * reflected_near) * (density / (real)params.visible_points);
+  real3 kernel_bias = (reflected - 4 * reflected_near) * (density / (real)params.visible_points);
   if (found > 0) radiance.sum += reflected * density;
   radiance.sum /= params.visible_points;
-  if (HAS(OUTPUT_LAYERS))
-    for (uint k = 0; k < LAYER_COUNT; ++k) radiance.layer[k] /= params.visible_points;
-  film_add_radiance(film, index, params.width * params.height, &radiance, luminance(blur.x, blur.y, blur.z),
+  if (HAS(OUTPUT_LIGHT_PASSES))
+    for (uint k = 0; k < LIGHT_PASS_COUNT; ++k) radiance.layer[k] /= params.visible_points;
+  film_add_radiance(film, index, params.width * params.height, &radiance, luminance(kernel_bias.x, kernel_bias.y, kernel_bias.z),
                     params.pass, counters);
   if (found > 0) film[index].unknown = 0;
   pixels[index] = params.radius2 > 0 ? sppm_count(pixel, found) : sppm_update(pixel, found, params.alpha);
 }
 
-// Marks the cells around visible points on surfaces: see mark_cells.
-kernel void mark_visible_points(global const VisiblePoint *visible_points, volatile global uint *marks, Grid cells,
+// Marks the cells around visible points on surfaces: see mark_visible_cells.
+kernel void mark_visible_points(global const VisiblePoint *visible_points, volatile global uint *visibility, Grid cells,
                                 float reach, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   VisiblePoint point = visible_points[i];
   if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0) || (point.normal & IN_MEDIUM)) return;
-  mark_cells(marks, cells, normal_unpack(point.normal), vload3(0, point.position), reach);
+  mark_visible_cells(visibility, cells, normal_unpack(point.normal), vload3(0, point.position), reach);
 }
 
 // The same for the pilot, which asks which photons are of use: of surfaces that face the same way alone, so that photons on
 // the other side of a ceiling are not, though points on walls below might gather some of them.
-kernel void mark_in_view(global const VisiblePoint *visible_points, volatile global uint *marks, Grid cells, float reach,
+kernel void mark_in_view(global const VisiblePoint *visible_points, volatile global uint *visibility, Grid cells, float reach,
                          uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   VisiblePoint point = visible_points[i];
   if (!(point.weight[0] + point.weight[1] + point.weight[2] > 0) || (point.normal & IN_MEDIUM)) return;
-  mark_facing(marks, cells, facing_bit(normal_unpack(point.normal)), vload3(0, point.position), reach);
+  mark_visible_facing(visibility, cells, facing_bit(normal_unpack(point.normal)), vload3(0, point.position), reach);
 }
 
-// Adds to *marked the photons on surfaces that landed in marked cells.
-kernel void count_marked(global const Photon *photons, global const uint *marks, volatile global uint *marked, Grid cells,
+// Adds to *marked the photons on surfaces that landed in cells of the visibility grid.
+kernel void count_visible(global const Photon *photons, global const uint *visibility, volatile global uint *visible, Grid cells,
                          uint count) {
   uint i = get_global_id(0);
   if (i >= count || (photons[i].normal & IN_MEDIUM)) return;
   real3 position = vload3(0, photons[i].position);
-  if (lies_in_grid(cells, position) && is_marked(marks, cells, normal_unpack(photons[i].normal), position))
-    atomic_inc(marked);
+  if (lies_in_grid(cells, position) && is_visible(visibility, cells, normal_unpack(photons[i].normal), position))
+    atomic_inc(visible);
 }
 
 // Every pixel's first radius.

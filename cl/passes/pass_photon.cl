@@ -7,26 +7,26 @@
 #include "photons/photon_interaction.cl"
 #include "traversal/brute_force.cl"
 #include "traversal/kdtree_stream.cl"
-#if defined(WAVE_BRUTE_FORCE) || defined(KDTREE_WAVES)
-#define WAVE_SIDE_BY_SIDE  // all rays of a wave at once
+#if defined(STREAM_BRUTE_FORCE) || defined(KDTREE_STREAMS)
+#define STREAM_BATCHED  // all rays of a wave at once
 #endif
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
 
 // The random numbers of photon i of the wave.
-INLINE RandomStream wave_stream(const Params *params, const Wave *wave, uint i) {
+INLINE RandomStream stream_random(const Params *params, const PhotonStream *wave, uint i) {
   RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, wave->index[i],
                          HAS(EFFECT_GUIDED_PHOTONS) ? wave->copy[i] : 0, HAS(EFFECT_GUIDED_PHOTONS) ? wave->fresh[i] : 0};
   return stream;
 }
 
 // Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the wave.
-OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
-                       uint alive, uint count, Wave *wave, volatile global Counters *counters) {
+OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
+                       uint alive, uint count, PhotonStream *wave, volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
-  global const AimCell *cells = aims->cells;
+  global const ProjectionCell *cells = aims->cells;
   global const EmissionCell *emission = guide->emission;
   const uint emission_cells = guide->emission_cells;
   for (uint i = alive; i < alive + count; ++i) {
@@ -42,127 +42,127 @@ OUTLINE void wave_emit(const Scene *from, const Params *settings, const Guide *g
     wave->depth[i] = 0;
     wave->flux[0][i] = start.share;  // until the photon has a flux of its own
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0) {
-      RandomStream stream = wave_stream(&params, wave, i);
+      RandomStream stream = stream_random(&params, wave, i);
       real4 choice = random4(stream, DIM_EMITTER);
       uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
       wave->flux_rg[i] = cell;  // until the photon has a record
       wave->flux[0][i] *= emission[cell].share;
       wave->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
     } else {
-      wave->primitive[i] = photon_emitter(&scene, wave_stream(&params, wave, i));
+      wave->primitive[i] = photon_emitter(&scene, stream_random(&params, wave, i));
     }
   }
   const real3 scale = channel_scale(params.channel_shifts);
-#if VECTORISED(LOOPED_EMISSION)
+#if VECTORISED(EFFECTS_NOT_BATCHED_IN_EMISSION)
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = alive; i < alive + count; ++i) {
-    RandomStream stream = wave_stream(&params, wave, i);
+    RandomStream stream = stream_random(&params, wave, i);
     real4 random = random4(stream, DIM_EMISSION), choice = random4(stream, DIM_EMITTER);
     real u = random.x, v = random.y, share = 1;
     uint emitter = wave->primitive[i];
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0)
       choice = emission_numbers(emission + wave->flux_rg[i], choice, &u, &v);
-    if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, aim_square(emitter, params.emitter_count), random.z, &u, &v);
+    if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, projection_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
     Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
-    flux = product3(scale, flux);
+    flux = mul3(scale, flux);
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon;
     photon.ray = ray, photon.flux = flux;
-    photon.history = HISTORY_STRAIGHT, photon.mark = 0, photon.interior = interior_none();
+    photon.prefix = PREFIX_DIRECT, photon.mark = 0, photon.interior = interior_none();
     if (HAS(EFFECT_HORIZON) && scene.emitters[emitter].type >= EMITTER_DIRECTIONAL) photon.mark = FROM_BEYOND;
     if (HAS(EFFECT_NESTED)) {
-      uint faults = 0;
-      photon.media = media_at_emitter(&scene, emitter, ray, &faults);
+      uint diagnostics = 0;
+      photon.media = media_at_emitter(&scene, emitter, ray, &diagnostics);
       if (nested(&scene)) photon.interior = interior_of_stack(&scene, &photon.media.stack);
-      count_faults(faults, counters);
+      count_diagnostics(diagnostics, counters);
     }
     wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
-    wave_put(wave, i, &photon);
+    stream_put(wave, i, &photon);
   }
 }
 
 // Finds where each photon's ray ends.
-OUTLINE void wave_trace(const Scene *scene, uint count, Wave *wave, volatile global Counters *counters) {
+OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *wave, volatile global Counters *counters) {
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
-#ifdef WAVE_SIDE_BY_SIDE
-    planes_closest(g, wave_ray(wave, i), &hit);
+#ifdef STREAM_BATCHED
+    planes_closest(g, stream_ray(wave, i), &hit);
 #else
-    geometry_closest(g, wave_ray(wave, i), &hit);
-    count_faults(hit.faults, counters);
+    geometry_closest(g, stream_ray(wave, i), &hit);
+    count_diagnostics(hit.diagnostics, counters);
 #endif
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
-#ifdef WAVE_SIDE_BY_SIDE
+#ifdef STREAM_BATCHED
   RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
                     {wave->direction[0], wave->direction[1], wave->direction[2]},
                     wave->t, wave->u, wave->v, wave->primitive};
 #endif
-#if defined(WAVE_BRUTE_FORCE)
+#if defined(STREAM_BRUTE_FORCE)
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
-#elif defined(WAVE_SIDE_BY_SIDE)
+#elif defined(STREAM_BATCHED)
   if (!HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER)) return;
-  uint faults[WAVE_CAPACITY];
-  kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, faults);
-  for (uint i = 0; i < count; ++i) count_faults(faults[i], counters);
+  uint diagnostics[STREAM_CAPACITY];
+  kdtree_stream(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, diagnostics);
+  for (uint i = 0; i < count; ++i) count_diagnostics(diagnostics[i], counters);
 #endif
 }
 
 // Puts what photons in a gap of no width meet next in the place of what their rays have met.
-OUTLINE void wave_contacts(const Scene *scene, uint count, Wave *wave) {
+OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *wave) {
   for (uint i = 0; i < count; ++i) {
     if (!nested(scene) || wave->media[i].contact == CONTACT_NONE) continue;
     Hit hit = hit_none(INFINITY);
-    media_closest(scene, wave->media + i, wave_ray(wave, i), &hit);
+    media_closest(scene, wave->media + i, stream_ray(wave, i), &hit);
     wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
   }
 }
 
 // Takes each photon past its hit.
-OUTLINE void wave_scatter(const Scene *from, const Params *settings, uint count, Wave *wave,
+OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint count, PhotonStream *wave,
                           volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
-#if VECTORISED(LOOPED_EVENTS)
+#if VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS)
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = wave_stream(&params, wave, i);
+    RandomStream stream = stream_random(&params, wave, i);
     Hit hit = {wave->t[i], wave->primitive[i], wave->u[i], wave->v[i], 0};
     uint events = 0;
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
-      PhotonState photon = wave_get(wave, i);
+      PhotonState photon = stream_get(wave, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_event(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
-      if (HAS(EFFECT_NESTED)) count_faults(photon.faults, counters);
-      wave_put(wave, i, &photon);
-      wave_put_record(wave, i, &record);
+      events = photon_interact(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
+      if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
+      stream_put(wave, i, &photon);
+      stream_put_record(wave, i, &record);
     }
     wave->events[i] = events;
   }
 }
 
-// Counts the scouts that land as parts of caustics, by the cell that they left by.
-OUTLINE void wave_learn(const Scene *scene, const Params *params, const Wave *wave, uint count, const Aim *aim) {
+// Counts the pilot paths that land as parts of caustics, by the cell that they left by.
+OUTLINE void stream_learn(const Scene *scene, const Params *params, const PhotonStream *wave, uint count, const Aim *aim) {
   for (uint i = 0; i < count; ++i) {
     if (!(wave->events[i] & EVENT_STORED) || (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON))) continue;
-    RandomStream stream = wave_stream(params, wave, i);
+    RandomStream stream = stream_random(params, wave, i);
     real4 random = random4(stream, DIM_EMISSION);
-    atomic_inc(aim->landed + aim_square(photon_emitter(scene, stream), scene->emitter_count) +
-               aim_cell(random.x, random.y));
+    atomic_inc(aim->deposited + projection_square(photon_emitter(scene, stream), scene->emitter_count) +
+               projection_cell(random.x, random.y));
   }
 }
 
 // Stores the records of the last event and counts what went wrong there.
-OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, uint capacity,
+OUTLINE void stream_deposit(uint count, const PhotonStream *wave, global Photon *photons, uint capacity,
                         volatile global Counters *counters) {
-  // Which events left a record is as good as random: a list without branches costs a third of asking one by one.
-  uint kept[WAVE_CAPACITY], stored = 0, copies = 0, indirect = 0, saturated = 0, non_finite = 0;
+  // Which events left a record is as good as random: a list without branches costs a third of asking one at a time.
+  uint kept[STREAM_CAPACITY], stored = 0, copies = 0, indirect = 0, saturated = 0, non_finite = 0;
   for (uint i = 0; i < count; ++i) {
     uint events = wave->events[i];
     bool stays = (events & EVENT_STORED) != 0;
@@ -196,10 +196,10 @@ OUTLINE void wave_store(uint count, const Wave *wave, global Photon *photons, ui
 
 // Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are
 // then.
-OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
+OUTLINE uint stream_compact(uint first, uint end, PhotonStream *wave) {
   uint alive = first;
   for (uint i = first; i < end; ++i) {
-    wave_move(wave, i, alive);
+    stream_move(wave, i, alive);
     alive += wave->events[i] & EVENT_ALIVE;
   }
   return alive;
@@ -207,32 +207,32 @@ OUTLINE uint wave_compact(uint first, uint end, Wave *wave) {
 
 // Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that
 // have ended. Returns the number of rays.
-OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
+OUTLINE uint stream_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
                         uint end, global Photon *photons, volatile global Counters *counters) {
-  Wave wave;
+  PhotonStream wave;
   uint rays = 0, alive = 0;
   if (params->max_depth == 0) return 0;
   while (first < end || alive > 0) {
-    uint room = (WAVE_CAPACITY - alive) / WAVE_STEP * WAVE_STEP, fresh = min(end - first, room);
-    if (fresh > 0 && (room >= WAVE_REFILL || alive == 0)) {
-      wave_emit(scene, params, guide, aim, first, alive, wave_padded(fresh), &wave, counters);
+    uint room = (STREAM_CAPACITY - alive) / STREAM_STEP * STREAM_STEP, fresh = min(end - first, room);
+    if (fresh > 0 && (room >= PATH_REGENERATION || alive == 0)) {
+      stream_emit(scene, params, guide, aim, first, alive, stream_padded(fresh), &wave, counters);
       first += fresh;
-      alive = wave_compact(alive, alive + fresh, &wave);
+      alive = stream_compact(alive, alive + fresh, &wave);
     }
     rays += alive;
-    wave_trace(scene, alive, &wave, counters);
-    if (HAS(EFFECT_NESTED)) wave_contacts(scene, alive, &wave);
-    uint padded = wave_padded(alive);
+    stream_trace(scene, alive, &wave, counters);
+    if (HAS(EFFECT_NESTED)) stream_contacts(scene, alive, &wave);
+    uint padded = stream_padded(alive);
     for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
-    wave_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave, counters);
-    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_SCOUTS)
-      wave_guide(guide, params, alive, &wave, counters);
-    if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_TO_AIM_BY)
-      wave_learn(scene, params, &wave, alive, aim);
+    stream_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave, counters);
+    if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_PILOT_PATHS)
+      stream_guide(guide, params, alive, &wave, counters);
+    if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_FOR_PROJECTION_MAP)
+      stream_learn(scene, params, &wave, alive, aim);
     else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
-      wave_store(alive, &wave, photons, params->photon_capacity, counters);
+      stream_deposit(alive, &wave, photons, params->photon_capacity, counters);
     for (uint i = 0; i < alive; ++i) ++wave.depth[i];
-    alive = wave_compact(0, alive, &wave);
+    alive = stream_compact(0, alive, &wave);
   }
   return rays;
 }
@@ -240,13 +240,13 @@ OUTLINE uint wave_paths(const Scene *scene, const Params *params, const Guide *g
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
 // the host can enlarge it and trace the pass again. Where photons go in waves, one item of a work-group traces
 // PHOTONS_AN_ITEM for each item of that, if any are left for the group. What follows
-// `params` is asked for by guided photons, and at the end by aimed ones.
+// `params` is asked for by Metropolis photons, and at the end by aimed ones.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,
-                          Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *marks,
+                          Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *visibility,
                           Grid cells, global const EmissionCell *emission, uint emission_cells,
-                          global const AimCell *aim_cells, volatile global uint *aim_landed) {
+                          global const ProjectionCell *projection_cells, volatile global uint *projection_deposits) {
   uint first = get_global_id(0), count = 1;
-  if (WAVE_CAPACITY > 1u) {
+  if (STREAM_CAPACITY > 1u) {
     if (get_local_id(0) != 0 || params.photon_count == 0) return;
     // Few groups have something to do, spread evenly over all: threads take runs of neighbouring groups.
     count = (uint)get_local_size(0) * PHOTONS_AN_ITEM;
@@ -258,14 +258,14 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   if (first >= params.photon_count) return;
   SCENE_INIT(params);
   uint end = first + min(count, params.photon_count - first);
-  Guide guide = {seeds, accepted, marks, cells, emission, emission_cells};
-  Aim aim = {aim_cells, aim_landed};
-  uint rays = wave_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
+  Guide guide = {seeds, accepted, visibility, cells, emission, emission_cells};
+  Aim aim = {projection_cells, projection_deposits};
+  uint rays = stream_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
                          counters);
   count_rays(rays, counters);
 }
 
-// numbers[i] = the START_NUMBERS of seed number i of the list, as its photon used them. Of scouts PHOTONS_TO_LEARN_BY.
+// numbers[i] = the START_NUMBERS of seed number i of the list, as its photon used them. Of pilot paths PHOTONS_TO_LEARN_BY.
 kernel void seed_numbers(global const uint2 *seeds, global const EmissionCell *emission, uint emission_cells,
                          global float *numbers, uint seed, uint pass, uint count) {
   uint i = get_global_id(0);

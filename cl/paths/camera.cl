@@ -25,20 +25,20 @@ INLINE Ray camera_ray(const Camera *camera, uint width, uint height, real x, rea
   const float *origin = (const float *)&camera->origin, *axis = (const float *)&camera->axis;
   const float *right = (const float *)&camera->right, *up = (const float *)&camera->up;
   real u = x / width - (real)0.5f, v = 1 - y / height - (real)0.5f;
-  real3 d = sum3(sum3((real3)(axis[0], axis[1], axis[2]), scaled3(u, (real3)(right[0], right[1], right[2]))),
+  real3 d = add3(add3((real3)(axis[0], axis[1], axis[2]), scaled3(u, (real3)(right[0], right[1], right[2]))),
                  scaled3(v, (real3)(up[0], up[1], up[2])));
   Ray ray;
-  ray.origin = sum3((real3)(origin[0], origin[1], origin[2]), scaled3(origin[3], d));
+  ray.origin = add3((real3)(origin[0], origin[1], origin[2]), scaled3(origin[3], d));
   ray.direction = unit3(d);
   if (HAS(EFFECT_LENS)) {
     const float *across = (const float *)&camera->lens_right, *along = (const float *)&camera->lens_up;
     real aperture = right[3];
     real2 place = disc_uniform((real2)(lens_u, lens_v));
-    real3 offset = sum3(scaled3(aperture * place.x, (real3)(across[0], across[1], across[2])),
+    real3 offset = add3(scaled3(aperture * place.x, (real3)(across[0], across[1], across[2])),
                         scaled3(aperture * place.y, (real3)(along[0], along[1], along[2])));
     real3 focus = scaled3(axis[3], choose3(up[3] != 0, d, ray.direction));
-    ray.origin = sum3(ray.origin, offset);
-    ray.direction = choose3(aperture > 0, unit3(difference3(focus, offset)), ray.direction);
+    ray.origin = add3(ray.origin, offset);
+    ray.direction = choose3(aperture > 0, unit3(sub3(focus, offset)), ray.direction);
   }
   return ray;
 }

@@ -1,5 +1,5 @@
 // Emission that a camera path would see by the unlikely lobe of smooth glass or plastic: the highlights of lamps, and
-// skies, in glass balls and on varnish. Left to chance, one path in twenty-five brings all of it, and pictures sparkle
+// skies, in glass balls and on coating. Left to chance, one path in twenty-five brings all of it, and pictures sparkle
 // for thousands of passes. So at its first vertices, as long as all of them were smooth, the path looks along the lobe
 // that it is unlikely to take, and what that shows counts by the lobe's probability; from there on the look follows the
 // likely lobes, to the first surface that is no perfect mirror or glass. The path itself then counts no emission that a
@@ -9,8 +9,8 @@
 #include "film/light_passes.cl"
 
 // Vertices of a path at which it looks. With 0 all is left to chance.
-#ifndef LOOKING_VERTICES
-#define LOOKING_VERTICES 4u
+#ifndef SPLITTING_VERTICES
+#define SPLITTING_VERTICES 4u
 #endif
 
 INLINE real glass_reflectance(const Bsdf *bsdf, const Surface *surface, real3 d, real3 n) {
@@ -22,8 +22,8 @@ INLINE bool is_smooth(const Bsdf *bsdf, uint kind) { return bsdf->kind == kind &
 
 // Adds what lies at the end of the lobe that lobe_number draws at `surface`, and of the likely lobes from there on.
 // `carried` is the path's throughput times the probability of that lobe.
-OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
-                             real3 carried, Interior interior, const Boundary *at, RandomStream stream, uint depth,
+OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
+                             real3 branch_throughput, Interior interior, const Boundary *at, RandomStream stream, uint depth,
                              uint max_depth, Radiance *radiance, uint *rays, volatile global Counters *counters) {
   Bsdf bsdf = *lobe;
   Surface surface = *from;
@@ -31,8 +31,8 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
   if (nested(scene)) boundary = *at;
   for (;;) {
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, (real4)(0, 0, lobe_number, 0), true);
-    carried *= next.weight;
-    if (!(max_component(carried) > 0)) return;
+    branch_throughput *= next.weight;
+    if (!(max_component(branch_throughput) > 0)) return;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
       interior = interior_after(interior, scene->materials + surface.material, &surface, next.direction);
     ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
@@ -40,11 +40,11 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
     ++depth;
     Hit hit = hit_none(INFINITY);
     ++*rays;
-    bool met = media_closest(scene, &boundary.media, ray, &hit);
-    count_faults(hit.faults, counters);
-    if (!met) {
+    bool did_hit = media_closest(scene, &boundary.media, ray, &hit);
+    count_diagnostics(hit.diagnostics, counters);
+    if (!did_hit) {
       if (HAS(EFFECT_ENVIRONMENT))
-        radiance_add(radiance, HISTORY_NO_RECEIVER, carried * escaped_radiance(scene, ray.direction, 0));
+        radiance_add(radiance, PREFIX_NO_DIFFUSE, branch_throughput * escaped_radiance(scene, ray.direction, 0));
       return;
     }
     geometry_surface(&scene->geometry, ray, hit, &surface);
@@ -52,24 +52,24 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
     global const Material *material = scene->materials + surface.material;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
       if (!nested(scene)) interior = interior_before(interior, material, &surface, ray.direction);
-      carried *= interior_transmittance(interior, hit.t);
+      branch_throughput *= interior_transmittance(interior, hit.t);
     }
-    radiance_add(radiance, HISTORY_NO_RECEIVER, carried * emission_at(material, &surface, ray.direction));
+    radiance_add(radiance, PREFIX_NO_DIFFUSE, branch_throughput * emission_at(material, &surface, ray.direction));
     if (depth == max_depth) return;
     bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     // Which decides whether a lobe is smooth.
     boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
-                  &carried);
+                  &branch_throughput);
     if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
     // What absorbing glass reflects to and fro is not worth following for long.
-    real survival = fmin(1000 * max_component(carried), (real)1);
-    if (random_at(stream, depth, DIM_LOOK).x >= survival) return;
-    carried /= survival;
+    real survival = fmin(1000 * max_component(branch_throughput), (real)1);
+    if (random_at(stream, depth, DIM_BRANCH).x >= survival) return;
+    branch_throughput /= survival;
     if (HAS(EFFECT_GLASS) && bsdf.kind == MATERIAL_GLASS) {
       real reflectance = glass_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
       lobe_number = reflectance < (real)0.5f ? 1 : 0;
-      carried *= fmax(reflectance, 1 - reflectance);
+      branch_throughput *= fmax(reflectance, 1 - reflectance);
     }
   }
 }
@@ -77,14 +77,14 @@ OUTLINE void look_along_lobe(const Scene *scene, const Bsdf *lobe, const Surface
 // Looks along the unlikely lobe at a vertex of a camera path, before the path chooses its own by `lobe_number`.
 // `counted` is whether looks have counted the emission that the path has ahead, as it comes to the vertex; returns
 // whether they have as it leaves. After a vertex of plastic that became diffuse it is of no meaning.
-INLINE bool look_aside(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Ray ray, real lobe_number,
-                       real3 throughput, Interior interior, const Boundary *boundary, uint history,
+INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Ray ray, real lobe_number,
+                       real3 throughput, Interior interior, const Boundary *boundary, uint prefix,
                        RandomStream stream, uint depth, uint max_depth, bool counted, Radiance *radiance, uint *rays, volatile global Counters *counters) {
   bool glass = HAS(EFFECT_GLASS) && is_smooth(bsdf, MATERIAL_GLASS);
   bool plastic = HAS(EFFECT_PLASTIC) && is_smooth(bsdf, MATERIAL_PLASTIC);
   if (!glass && !plastic) return counted && bsdf_is_specular(bsdf);
   // In a medium the look would be a path of its own, which may be scattered.
-  bool looks = scene->emission_met && history == HISTORY_NO_RECEIVER && depth < LOOKING_VERTICES;
+  bool looks = scene->emission_met && prefix == PREFIX_NO_DIFFUSE && depth < SPLITTING_VERTICES;
   if (HAS(EFFECT_MEDIUM) && max_component(scene->medium.extinction) > 0) looks = false;
   // The coat of plastic is looked along, likely or not, and weighs what it reflects.
   real probability = 1, toward = 0;
@@ -99,7 +99,7 @@ INLINE bool look_aside(const Scene *scene, const Bsdf *bsdf, const Surface *surf
     taken = (lobe_number < reflectance) == reflects;
   }
   if (looks && probability > 0)
-    look_along_lobe(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream, depth,
+    trace_unlikely_branch(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream, depth,
                     max_depth, radiance, rays, counters);
   return taken ? looks : counted;
 }

@@ -1,4 +1,4 @@
-// Camera paths that have come to a diffuse surface, side by side: their visible points, and light that comes there straight
+// Camera paths that have come to a diffuse surface, in a batch: their visible points, and light that comes there straight
 // from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and wave.cl).
 #include "photons/kernel_area.cl"
 #include "lights/direct.cl"
@@ -8,50 +8,50 @@
 #include "traversal/brute_force.cl"
 #include "traversal/triangle_packet.cl"
 
-// Effects that ask for loops, or for arithmetic of whole vectors, on the way, or for more than a receiver keeps. Lobes that
+// Effects that ask for loops, or for arithmetic of whole vectors, on the way, or for more than a first diffuse vertex keeps. Lobes that
 // no diffuse surface has do not matter.
-#define LOOPED_RECEIVERS                                                                                        \
+#define EFFECTS_NOT_BATCHED_IN_DIFFUSE_VERTICES                                                                                        \
   (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_PLASTIC |             \
-   EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_NESTED | OUTPUT_LAYERS)
-#define RECEIVERS_SIDE_BY_SIDE VECTORISED(LOOPED_RECEIVERS)
+   EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_NESTED | OUTPUT_LIGHT_PASSES)
+#define DIFFUSE_VERTICES_BATCHED VECTORISED(EFFECTS_NOT_BATCHED_IN_DIFFUSE_VERTICES)
 
-#if RECEIVERS_SIDE_BY_SIDE && defined(WAVE_BRUTE_FORCE)
+#if DIFFUSE_VERTICES_BATCHED && defined(STREAM_BRUTE_FORCE)
 #define SHADOWS_BY_BRUTE_FORCE
 #endif
 
 // By component: the last ray of each path and its hit, what the path carries, and what is found out about its end. What
-// loops over them read is set up to wave_padded() of their number; rays beyond are masked where packets of sixteen are read.
+// loops over them read is set up to stream_padded() of their number; rays beyond are masked where packets of sixteen are read.
 typedef struct {
-  real origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY];
-  real t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
-  uint primitive[WAVE_CAPACITY];  // as in Hit
-  real throughput[3][WAVE_CAPACITY], radiance[3][WAVE_CAPACITY];
-  uint counted[WAVE_CAPACITY];  // whether the emission there is, by unlikely_lobe.cl
-  uint depth[WAVE_CAPACITY];    // of the vertex
-  uint pixel[WAVE_CAPACITY], sample[WAVE_CAPACITY];  // of the path
+  real origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY];
+  real t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
+  uint primitive[STREAM_CAPACITY];  // as in Hit
+  real throughput[3][STREAM_CAPACITY], radiance[3][STREAM_CAPACITY];
+  uint counted[STREAM_CAPACITY];  // whether the emission there is, by unlikely_lobe.cl
+  uint depth[STREAM_CAPACITY];    // of the vertex
+  uint pixel[STREAM_CAPACITY], sample[STREAM_CAPACITY];  // of the path
 
-  real position[3][WAVE_CAPACITY], error[WAVE_CAPACITY];  // as in Surface
-  real side[3][WAVE_CAPACITY];    // the geometric normal on the path's side
-  real facing[3][WAVE_CAPACITY];  // facing_normal()
-  real weight[3][WAVE_CAPACITY];  // of the visible point; zero where there is none
-  uint normal[WAVE_CAPACITY];
-  uint emitter[WAVE_CAPACITY];
-  real random[4][WAVE_CAPACITY];  // by which it is chosen, and the place on it
-  real distance[WAVE_CAPACITY], reflected[3][WAVE_CAPACITY];  // of UnshadowedLight; its ray is then the path's
-} Receivers;
+  real position[3][STREAM_CAPACITY], error[STREAM_CAPACITY];  // as in Surface
+  real side[3][STREAM_CAPACITY];    // the geometric normal on the path's side
+  real facing[3][STREAM_CAPACITY];  // facing_normal()
+  real weight[3][STREAM_CAPACITY];  // of the visible point; zero where there is none
+  uint normal[STREAM_CAPACITY];
+  uint emitter[STREAM_CAPACITY];
+  real random[4][STREAM_CAPACITY];  // by which it is chosen, and the place on it
+  real distance[STREAM_CAPACITY], reflected[3][STREAM_CAPACITY];  // of LightCandidate; its ray is then the path's
+} DiffuseVertices;
 
-INLINE PathSampler receiver_sampler(const Params *params, const Receivers *r, uint i, uint sobol) {
+INLINE PathSampler diffuse_vertex_sampler(const Params *params, const DiffuseVertices *r, uint i, uint sobol) {
   return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, sobol);
 }
 
-INLINE Ray receiver_ray(const Receivers *r, uint i) {
+INLINE Ray diffuse_vertex_ray(const DiffuseVertices *r, uint i) {
   Ray ray = {(real3)(r->origin[0][i], r->origin[1][i], r->origin[2][i]),
              (real3)(r->direction[0][i], r->direction[1][i], r->direction[2][i])};
   return ray;
 }
 
 // Makes path i one that meets a diffuse surface at `hit`.
-INLINE void receivers_put(Receivers *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
+INLINE void diffuse_vertices_put(DiffuseVertices *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
                           real3 radiance, uint depth, bool counted) {
   r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
   r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
@@ -62,7 +62,7 @@ INLINE void receivers_put(Receivers *r, uint i, uint pixel, uint sample, Ray ray
 }
 
 // Makes path i that before it once more.
-INLINE void receivers_repeat(Receivers *r, uint i) {
+INLINE void diffuse_vertices_repeat(DiffuseVertices *r, uint i) {
   for (uint k = 0; k < 3; ++k) {
     r->origin[k][i] = r->origin[k][i - 1];
     r->direction[k][i] = r->direction[k][i - 1];
@@ -74,26 +74,26 @@ INLINE void receivers_repeat(Receivers *r, uint i) {
   r->pixel[i] = r->pixel[i - 1], r->sample[i] = r->sample[i - 1];
 }
 
-INLINE bool receiver_reflects(const Receivers *r, uint i) {
+INLINE bool diffuse_vertex_reflects(const DiffuseVertices *r, uint i) {
   return max(r->weight[0][i], max(r->weight[1][i], r->weight[2][i])) > 0;
 }
 
 // What camera_path() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
-INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *r, uint i, uint sobol) {
-  Ray ray = receiver_ray(r, i);
+INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, DiffuseVertices *r, uint i, uint sobol) {
+  Ray ray = diffuse_vertex_ray(r, i);
   Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
   Surface surface;
-  geometry_surface_parts(&scene->geometry, ray, hit, &surface);
+  geometry_surface_soa(&scene->geometry, ray, hit, &surface);
   global const Material *material = scene->materials + surface.material;
   real3 throughput = (real3)(r->throughput[0][i], r->throughput[1][i], r->throughput[2][i]);
-  real3 emission = product3(throughput, emission_at(material, &surface, ray.direction));
+  real3 emission = mul3(throughput, emission_at(material, &surface, ray.direction));
   bool counted = r->counted[i] != 0;
   r->radiance[0][i] += counted ? 0 : emission.x;
   r->radiance[1][i] += counted ? 0 : emission.y;
   r->radiance[2][i] += counted ? 0 : emission.z;
 
   Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-  real3 weight = scaled3(INV_PI, product3(throughput, bsdf.color));
+  real3 weight = scaled3(INV_PI, mul3(throughput, bsdf.color));
   weight = choose3(r->depth[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
   real3 p = surface.position, n = facing_normal(&surface, ray.direction), g = surface.geometric_normal;
   g = scaled3(dot3(g, ray.direction) < 0 ? 1 : -1, g);
@@ -102,29 +102,29 @@ INLINE void receiver_point(const Scene *scene, const Params *params, Receivers *
   r->facing[0][i] = n.x, r->facing[1][i] = n.y, r->facing[2][i] = n.z;
   r->weight[0][i] = weight.x, r->weight[1][i] = weight.y, r->weight[2][i] = weight.z;
   r->normal[i] = normal_pack(g);
-  PathSampler sampler = receiver_sampler(params, r, i, sobol);
-  real4 random = path_random4_parts(&sampler, dimension_at(r->depth[i], DIM_LIGHT));
+  PathSampler sampler = diffuse_vertex_sampler(params, r, i, sobol);
+  real4 random = path_random4_soa(&sampler, dimension_at(r->depth[i], DIM_LIGHT));
   r->random[0][i] = random.x, r->random[1][i] = random.y, r->random[2][i] = random.z, r->random[3][i] = random.w;
 }
 
-OUTLINE void receivers_find_points(const Scene *from, const Params *settings, uint count, Receivers *r) {
+OUTLINE void diffuse_vertices_find_points(const Scene *from, const Params *settings, uint count, DiffuseVertices *r) {
   const Scene scene = *from;
   const Params params = *settings;
   if (params.sobol != 0) {
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
 #pragma clang loop vectorize(assume_safety)
 #endif
-    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 1);
+    for (uint i = 0; i < count; ++i) diffuse_vertex_point(&scene, &params, r, i, 1);
   } else {
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
 #pragma clang loop vectorize(assume_safety)
 #endif
-    for (uint i = 0; i < count; ++i) receiver_point(&scene, &params, r, i, 0);
+    for (uint i = 0; i < count; ++i) diffuse_vertex_point(&scene, &params, r, i, 0);
   }
 }
 
 // Light from the emitter chosen for the visible point of path i, whose shadow ray takes the place of the path's.
-INLINE void receiver_light(const Scene *scene, Receivers *r, uint i) {
+INLINE void diffuse_vertex_light(const Scene *scene, DiffuseVertices *r, uint i) {
   Surface surface;
   surface.position = (real3)(r->position[0][i], r->position[1][i], r->position[2][i]);
   surface.geometric_normal = (real3)(r->side[0][i], r->side[1][i], r->side[2][i]);
@@ -134,8 +134,8 @@ INLINE void receiver_light(const Scene *scene, Receivers *r, uint i) {
   real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
   Bsdf bsdf;
   bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
-  UnshadowedLight light = unshadowed_light(scene, r->emitter[i], &bsdf, &surface, interior_none(),
-                                           receiver_ray(r, i).direction, n, weight, random, false);
+  LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &bsdf, &surface, interior_none(),
+                                           diffuse_vertex_ray(r, i).direction, n, weight, random, false);
   real3 o = light.shadow.origin, d = light.shadow.direction, l = light.reflected;
   r->origin[0][i] = o.x, r->origin[1][i] = o.y, r->origin[2][i] = o.z;
   r->direction[0][i] = d.x, r->direction[1][i] = d.y, r->direction[2][i] = d.z;
@@ -143,26 +143,26 @@ INLINE void receiver_light(const Scene *scene, Receivers *r, uint i) {
   r->reflected[0][i] = l.x, r->reflected[1][i] = l.y, r->reflected[2][i] = l.z;
 }
 
-OUTLINE void receivers_find_light(const Scene *from, uint count, Receivers *r) {
+OUTLINE void diffuse_vertices_sample_lights(const Scene *from, uint count, DiffuseVertices *r) {
   const Scene scene = *from;
-#if RECEIVERS_SIDE_BY_SIDE
+#if DIFFUSE_VERTICES_BATCHED
 #pragma clang loop vectorize(assume_safety)
 #endif
-  for (uint i = 0; i < count; ++i) receiver_light(&scene, r, i);
+  for (uint i = 0; i < count; ++i) diffuse_vertex_light(&scene, r, i);
 }
 
 // Whether light comes to the visible point of path i unless something is in the way.
-INLINE bool receiver_asks(const Receivers *r, uint i) {
+INLINE bool diffuse_vertex_has_shadow_ray(const DiffuseVertices *r, uint i) {
   return max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0;
 }
 
 // Leaves light alone that is positive and that nothing is in the way of. Returns the number of rays.
-OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, volatile global Counters *counters) {
+OUTLINE uint diffuse_vertices_occlusion(const Scene *scene, uint count, DiffuseVertices *r, volatile global Counters *counters) {
   uint rays = 0;
 #ifdef SHADOWS_BY_BRUTE_FORCE
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
-    bool asks = receiver_asks(r, i);
+    bool asks = diffuse_vertex_has_shadow_ray(r, i);
     rays += asks ? 1u : 0u;
     r->t[i] = asks ? r->distance[i] : -INFINITY;
     r->primitive[i] = HIT_NONE;
@@ -172,12 +172,12 @@ OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, vola
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &shadows);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
   for (uint i = 0; i < count; ++i) {
-    bool arrives = receiver_asks(r, i) && r->primitive[i] == HIT_NONE;
+    bool arrives = diffuse_vertex_has_shadow_ray(r, i) && r->primitive[i] == HIT_NONE;
     for (uint k = 0; k < 3; ++k) r->reflected[k][i] = arrives ? r->reflected[k][i] : 0;
   }
 #else
   for (uint i = 0; i < count; ++i) {
-    if (!receiver_asks(r, i) || shadowed(scene, receiver_ray(r, i), r->distance[i], &rays, counters))
+    if (!diffuse_vertex_has_shadow_ray(r, i) || occluded_along(scene, diffuse_vertex_ray(r, i), r->distance[i], &rays, counters))
       r->reflected[0][i] = r->reflected[1][i] = r->reflected[2][i] = 0;
   }
 #endif
@@ -185,25 +185,25 @@ OUTLINE uint receivers_shadow(const Scene *scene, uint count, Receivers *r, vola
 }
 
 // Probes the disc of the visible points that are to (coverage.cl). Returns the number of rays.
-OUTLINE uint receivers_probe(const Scene *scene, const Params *params, uint count, Receivers *r,
+OUTLINE uint diffuse_vertices_probe(const Scene *scene, const Params *params, uint count, DiffuseVertices *r,
                              global const SppmPixel *pixels, volatile global Counters *counters) {
   uint rays = 0;
   for (uint i = 0; i < count; ++i) {
     real radius;
-    if (!receiver_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->sample[i], &radius)) continue;
-    PathSampler sampler = receiver_sampler(params, r, i, params->sobol);
+    if (!diffuse_vertex_reflects(r, i) || !probe_wanted(params, pixels, r->pixel[i], r->sample[i], &radius)) continue;
+    PathSampler sampler = diffuse_vertex_sampler(params, r, i, params->sobol);
     Hit hit = {0, r->primitive[i], r->u[i], r->v[i], 0};
-    r->normal[i] |= coverage_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
+    r->normal[i] |= kernel_area_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
                                    (real3)(r->side[0][i], r->side[1][i], r->side[2][i]), radius * radius,
-                                   path_random_at(&sampler, r->depth[i], DIM_COVERAGE), &rays, counters);
+                                   path_random_at(&sampler, r->depth[i], DIM_KERNEL_AREA), &rays, counters);
   }
   return rays;
 }
 
-OUTLINE void receivers_store(const Params *params, uint count, const Receivers *r, bool lit, global VisiblePoint *points) {
+OUTLINE void diffuse_vertices_store(const Params *params, uint count, const DiffuseVertices *r, bool lit, global VisiblePoint *points) {
   for (uint i = 0; i < count; ++i) {
     VisiblePoint point = {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}};
-    bool reflects = receiver_reflects(r, i);
+    bool reflects = diffuse_vertex_reflects(r, i);
     point.normal = reflects ? r->normal[i] : 0;
     for (uint k = 0; k < 3; ++k) {
       point.position[k] = reflects ? r->position[k][i] : 0;
@@ -215,20 +215,20 @@ OUTLINE void receivers_store(const Params *params, uint count, const Receivers *
 }
 
 // Finds the visible points of `count` paths and stores them. Returns the number of rays.
-OUTLINE uint receivers_finish(const Scene *scene, const Params *params, uint count, Receivers *r,
+OUTLINE uint diffuse_vertices_finish(const Scene *scene, const Params *params, uint count, DiffuseVertices *r,
                               global VisiblePoint *points, global const SppmPixel *pixels,
                               volatile global Counters *counters) {
   if (count == 0) return 0;
-  uint padded = wave_padded(count);
-  for (uint i = count; i < padded; ++i) receivers_repeat(r, i);
-  receivers_find_points(scene, params, padded, r);
-  uint rays = receivers_probe(scene, params, count, r, pixels, counters);
+  uint padded = stream_padded(count);
+  for (uint i = count; i < padded; ++i) diffuse_vertices_repeat(r, i);
+  diffuse_vertices_find_points(scene, params, padded, r);
+  uint rays = diffuse_vertices_probe(scene, params, count, r, pixels, counters);
   bool lit = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   if (lit) {
     for (uint i = 0; i < padded; ++i) r->emitter[i] = emitter_choose(scene, r->random[0][i], r->random[3][i]);
-    receivers_find_light(scene, padded, r);
-    rays += receivers_shadow(scene, count, r, counters);
+    diffuse_vertices_sample_lights(scene, padded, r);
+    rays += diffuse_vertices_occlusion(scene, count, r, counters);
   }
-  receivers_store(params, count, r, lit, points);
+  diffuse_vertices_store(params, count, r, lit, points);
   return rays;
 }

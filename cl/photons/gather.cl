@@ -7,13 +7,13 @@
 typedef struct {
   ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
   ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2
-  ulong direct_red, direct_green, direct_blue;     // with OUTPUT_LAYERS, of those that came straight from a light
+  ulong direct_red, direct_green, direct_blue;     // with OUTPUT_LIGHT_PASSES, of those that came straight from a light
   ulong caustic_red, caustic_green, caustic_blue;  // and by specular surfaces alone
   uint count;
 } Gathered;
 
 // LAYER_* of a photon's word of blue flux.
-INLINE uint photon_layer(uint flux_b) { return flux_b >> PHOTON_LAYER_SHIFT; }
+INLINE uint photon_light_pass(uint flux_b) { return flux_b >> PHOTON_LIGHT_PASS_SHIFT; }
 
 // The same by lanes of eight photons, which the ranges of a search share.
 typedef struct {
@@ -46,7 +46,7 @@ INLINE void gather_lanes_add(GatherLanes lanes, Gathered *sum) {
   sum->near_red += sum_of_lanes(lanes.near_red);
   sum->near_green += sum_of_lanes(lanes.near_green);
   sum->near_blue += sum_of_lanes(lanes.near_blue);
-  if (HAS(OUTPUT_LAYERS)) {
+  if (HAS(OUTPUT_LIGHT_PASSES)) {
     sum->direct_red += sum_of_lanes(lanes.direct_red);
     sum->direct_green += sum_of_lanes(lanes.direct_green);
     sum->direct_blue += sum_of_lanes(lanes.direct_blue);
@@ -120,10 +120,10 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       uint8 keep = as_uint8(inside), near = as_uint8(mask_lanes(distance2 <= near_radius2));
       uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
-      if (HAS(OUTPUT_LAYERS)) {
-        uint8 layer = b >> PHOTON_LAYER_SHIFT;
+      if (HAS(OUTPUT_LIGHT_PASSES)) {
+        uint8 layer = b >> PHOTON_LIGHT_PASS_SHIFT;
         b &= 0xffffu;
-        uint8 direct = as_uint8(layer == LAYER_DIRECT), caustic = as_uint8(layer == LAYER_CAUSTIC);
+        uint8 direct = as_uint8(layer == LIGHT_PASS_DIRECT), caustic = as_uint8(layer == LIGHT_PASS_CAUSTIC);
         lanes->direct_red += r & direct;
         lanes->direct_green += g & direct;
         lanes->direct_blue += b & direct;
@@ -181,17 +181,17 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
     real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + share_dither(packed, along);
     uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
     ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
-    ulong blue = (ulong)weight.z * (HAS(OUTPUT_LAYERS) ? b & 0xffffu : b);
+    ulong blue = (ulong)weight.z * (HAS(OUTPUT_LIGHT_PASSES) ? b & 0xffffu : b);
     sum->red += red;
     sum->green += green;
     sum->blue += blue;
     ++sum->count;
-    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_DIRECT) {
+    if (HAS(OUTPUT_LIGHT_PASSES) && photon_light_pass(b) == LIGHT_PASS_DIRECT) {
       sum->direct_red += red;
       sum->direct_green += green;
       sum->direct_blue += blue;
     }
-    if (HAS(OUTPUT_LAYERS) && photon_layer(b) == LAYER_CAUSTIC) {
+    if (HAS(OUTPUT_LIGHT_PASSES) && photon_light_pass(b) == LIGHT_PASS_CAUSTIC) {
       sum->caustic_red += red;
       sum->caustic_green += green;
       sum->caustic_blue += blue;
@@ -205,7 +205,7 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
 
 // The cubes that can hold a photon within `reach` of `centre` along each axis: the *first bucket, and how many there are,
 // at most all of that axis. The interval is widened by the rounding of its ends. Six cubes at once take half the time of
-// one by one.
+// one at a time.
 INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
   real4 x = (real4)(centre, 0), wider = (real4)(reach * (real)1.000001, 0) + fabs(x) * (real)2.4e-7;
   real4 origin = convert_real4(grid.origin);

@@ -2,7 +2,7 @@
 // Visibility" (TOG 2011), but with a Markov chain of one step for each visible path in place of one long chain.
 //
 // Cells of space where visible points of earlier passes lie are marked. Of a pass's photons
-//   scouts are traced as always; what they leave in cells without a mark stays. Those that land in a marked cell become
+//   pilot paths are traced as always; what they leave in cells without a mark stays. Those that land in a marked cell become
 //          seeds: they are spread evenly over all paths that do (each path is a point of the unit cube of its random
 //          numbers). They leave nothing there yet;
 //   copies repeat a seed with slightly mutated numbers. Each is a step of Metropolis et al. from its seed: where it lands
@@ -15,13 +15,13 @@
 #include "photons/photon_stream.cl"
 #include "core/work_group.cl"
 
-// What guided photons read and write beside the map: `seeds` holds the numbers of the scouts that became seeds, in any
+// What Metropolis photons read and write beside the map: `seeds` holds the numbers of the pilot paths that became seeds, in any
 // order, `accepted` how many copies of each were; for `marks` see marked_cells.cl, for `emission` emission_map.cl, which
 // has no cells where photons start everywhere.
 typedef struct {
   global uint2 *seeds;
   volatile global uint *accepted;
-  global const uint *marks;
+  global const uint *visibility;
   Grid cells;
   global const EmissionCell *emission;
   uint emission_cells;
@@ -36,37 +36,37 @@ typedef struct {
 
 INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint number) {
   PhotonStart start = {number, 0, 0, 0, 1};
-  if (params->photon_role != PHOTONS_COPIES && params->photon_role != PHOTONS_SEEDS) return start;
-  bool copies = params->photon_role == PHOTONS_COPIES;
+  if (params->photon_role != PHOTONS_MUTATED_PATHS && params->photon_role != PHOTONS_CURRENT_PATHS) return start;
+  bool copies = params->photon_role == PHOTONS_MUTATED_PATHS;
   number = min(number, params->photon_count - 1);  // lanes beyond the last photon fill a vector
-  start.seed = copies ? number / params->photon_copies : number;
-  start.copy = copies ? 1 + number % params->photon_copies : 0;
+  start.seed = copies ? number / params->photon_mutations : number;
+  start.copy = copies ? 1 + number % params->photon_mutations : 0;
   uint2 seed = guide->seeds[start.seed];
   start.path = seed.x;
   start.fresh = DIM_BOUNCE_FIRST + seed.y * DIM_BOUNCE_STRIDE;
-  if (params->photon_copies == 0) return start;
-  uint shares = copies ? 1 : params->photon_copies - guide->accepted[start.seed];
-  start.share = (real)shares / params->photon_copies;
+  if (params->photon_mutations == 0) return start;
+  uint shares = copies ? 1 : params->photon_mutations - guide->accepted[start.seed];
+  start.share = (real)shares / params->photon_mutations;
   return start;
 }
 
 // Decides which records of the last event stay, by where they lie, and keeps the lists of seeds and of accepted copies.
-OUTLINE void wave_guide(const Guide *guide, const Params *params, uint count, Wave *wave,
+OUTLINE void stream_guide(const Guide *guide, const Params *params, uint count, PhotonStream *wave,
                         volatile global Counters *counters) {
-  bool learning = params->photon_role == PHOTONS_TO_LEARN_BY, scouts = learning || params->photon_role == PHOTONS_SCOUTS;
+  bool learning = params->photon_role == PHOTONS_TO_LEARN_BY, pilot_paths = learning || params->photon_role == PHOTONS_PILOT_PATHS;
   // Light that shadow rays bring teaches nothing.
-  uint wanted = learning ? EVENT_STORED : EVENT_STORED | EVENT_LANDED;
+  uint wanted = learning ? EVENT_STORED : EVENT_STORED | EVENT_DEPOSITED_ELSEWHERE;
   uint seeds = 0;
   for (uint i = 0; i < count; ++i) {
     if (!(wave->events[i] & wanted)) continue;
     real3 position = (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]);
-    bool marked = !(wave->normal[i] & IN_MEDIUM) && (!learning || lies_in_grid(guide->cells, position)) &&
-                  is_marked(guide->marks, guide->cells, normal_unpack(wave->normal[i]), position);
-    if (marked == scouts) wave->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
-    if (!marked || wave->useful[i]) continue;
-    wave->useful[i] = scouts ? 2 : 1;  // 2: not in the list yet
-    seeds += scouts ? 1 : 0;
-    if (params->photon_role != PHOTONS_COPIES) continue;
+    bool visible = !(wave->normal[i] & IN_MEDIUM) && (!learning || lies_in_grid(guide->cells, position)) &&
+                  is_visible(guide->visibility, guide->cells, normal_unpack(wave->normal[i]), position);
+    if (visible == pilot_paths) wave->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
+    if (!visible || wave->useful[i]) continue;
+    wave->useful[i] = pilot_paths ? 2 : 1;  // 2: not in the list yet
+    seeds += pilot_paths ? 1 : 0;
+    if (params->photon_role != PHOTONS_MUTATED_PATHS) continue;
     if (guide->seeds[wave->seed[i]].y == wave->depth[i])
       atomic_inc(guide->accepted + wave->seed[i]);
     else

@@ -15,7 +15,7 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
 // The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits. Where shading normals have
 // raised the flux above what a record holds, several alike share it: else the tail of their factor, which has no bound,
 // would be missing.
-INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history, real4 dither, Photon *record) {
+INLINE uint photon_record(real3 position, uint normal, real3 flux, uint prefix, real4 dither, Photon *record) {
   bool saturated = false;
   uint more = 0;
   if (HAS(EFFECT_SMOOTH)) {
@@ -29,7 +29,7 @@ INLINE uint photon_record(real3 position, uint normal, real3 flux, uint history,
   record->normal = normal;
   record->flux_rg = r | g << 16;
   record->flux_b = b;
-  if (HAS(OUTPUT_LAYERS)) record->flux_b |= history_layer(history) << PHOTON_LAYER_SHIFT;
+  if (HAS(OUTPUT_LIGHT_PASSES)) record->flux_b |= prefix_light_pass(prefix) << PHOTON_LIGHT_PASS_SHIFT;
   return (finite ? EVENT_STORED : EVENT_NON_FINITE) | (saturated ? EVENT_SATURATED : 0u) | more << EVENT_COPIES_SHIFT;
 }
 
@@ -44,14 +44,14 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
   photon->ray.origin += distance * photon->ray.direction;
   *events = 0;
   if (!(shadow_rays && depth == 0))
-    *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->history,
+    *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->prefix,
                             random_at(stream, depth, DIM_QUANTISE), record);
   real4 random = random_at(stream, depth, DIM_BSDF);
   real survival = fmin(max_component(photon->flux) / before, (real)1);
   if (depth + 1 == params->max_depth || random.w >= survival) return true;
   photon->flux /= survival;
   photon->ray.direction = phase_sample(scene->medium.g, photon->ray.direction, random.xy);
-  photon->history = history_after(photon->history, false);
+  photon->prefix = prefix_after(photon->prefix, false);
   photon->mark = INDIRECT_PHOTON;
   if (max_component(photon->flux) > 0) *events |= EVENT_ALIVE;
   return true;
@@ -60,7 +60,7 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
 // Puts the adjoint of what camera paths do in place of *next where the shading normal is not the geometric one.
 INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random, BsdfSample *next) {
   bool bent = has_bent_normal(surface);
-  if (VECTORISED(LOOPED_EVENTS)) {
+  if (VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS)) {
     BsdfSample adjoint = adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
     next->direction = choose3(bent, adjoint.direction, next->direction);
     next->weight = choose3(bent, adjoint.weight, next->weight);
@@ -71,7 +71,7 @@ INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 d
 
 // Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
 // where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
-INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
                          PhotonState *photon, Photon *record) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
@@ -80,10 +80,10 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
   real3 direction = photon->ray.direction;
   Surface surface;
-  geometry_surface_parts(&scene->geometry, photon->ray, hit, &surface);
+  geometry_surface_soa(&scene->geometry, photon->ray, hit, &surface);
   Interface interface;
   if (nested(scene)) {
-    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, &photon->faults);
+    interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, &photon->diagnostics);
     photon->interior = interior_of_stack(scene, &interface.before);
   }
   global const Material *material = scene->materials + surface.material;
@@ -111,35 +111,35 @@ INLINE uint photon_event(const Scene *scene, const Params *params, RandomStream 
   bool counted = shadow_rays && depth == 0, far = is_far(&scene->geometry, hit, surface.position);
   if (far && depth == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
   if (HAS(EFFECT_HORIZON)) photon->mark &= ~FROM_BEYOND;
-  bool landed_here = keeps_photons(&bsdf, material);
-  if (!HAS(EFFECT_GUIDED_PHOTONS)) landed_here = landed_here && !counted;
-  if (landed_here) {
-    real3 landed = scaled3(shading_normal_arrival(&surface, direction), flux);
-    if (plastic) landed *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
+  bool deposits_here = keeps_photons(&bsdf, material);
+  if (!HAS(EFFECT_GUIDED_PHOTONS)) deposits_here = deposits_here && !counted;
+  if (deposits_here) {
+    real3 deposited = scaled3(shading_normal_arrival(&surface, direction), flux);
+    if (plastic) deposited *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
-    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, landed,
-                                photon->history, random_at(stream, depth, DIM_QUANTISE), record);
-    events |= counted ? EVENT_LANDED : stored;
+    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, deposited,
+                                photon->prefix, random_at(stream, depth, DIM_QUANTISE), record);
+    events |= counted ? EVENT_DEPOSITED_ELSEWHERE : stored;
   }
   bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
-  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+  if (!VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) && !alive) return events;
 
   if (plastic) plastic_choose(&bsdf, direction, n, random.z);
-  photon->history = history_after(photon->history, bsdf_is_specular(&bsdf));
+  photon->prefix = prefix_after(photon->prefix, bsdf_is_specular(&bsdf));
   photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
-  BsdfSample next = VECTORISED(LOOPED_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
+  BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
   if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
   if (far && bsdf.kind == MATERIAL_DIFFUSE)
     next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
-  flux = product3(flux, next.weight);
+  flux = mul3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.
   // What a far surface has scattered may be more than was emitted, and is to become less.
   if (has_horizon(&scene->geometry)) before = fmin(before, (real)1);
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;
-  if (!VECTORISED(LOOPED_EVENTS) && !alive) return events;
+  if (!VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
   if (nested(scene)) {

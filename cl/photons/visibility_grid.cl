@@ -20,17 +20,17 @@ INLINE uint gathered_facings(float3 n) {
 
 // Marks the cells that a box of `reach` to each side of a visible point touches. With `reach` at most half a cell these
 // are eight at most.
-INLINE void mark_facing(volatile global uint *marks, Grid cells, uint facings, real3 position, real reach) {
+INLINE void mark_visible_facing(volatile global uint *visibility, Grid cells, uint facings, real3 position, real reach) {
   for (uint corner = 0; corner < 8; ++corner) {
     real3 side = (real3)(corner & 1u ? 1 : -1, corner & 2u ? 1 : -1, corner & 4u ? 1 : -1);
     uint bucket = grid_bucket(cells, position + reach * side);
-    atomic_or(marks + bucket / 4, facings << (8 * (bucket % 4)));
+    atomic_or(visibility + bucket / 4, facings << (8 * (bucket % 4)));
   }
 }
 
 // The same for the facings of all photons that a visible point of that normal gathers.
-INLINE void mark_cells(volatile global uint *marks, Grid cells, float3 normal, real3 position, real reach) {
-  mark_facing(marks, cells, gathered_facings(normal), position, reach);
+INLINE void mark_visible_cells(volatile global uint *visibility, Grid cells, float3 normal, real3 position, real reach) {
+  mark_visible_facing(visibility, cells, gathered_facings(normal), position, reach);
 }
 
 // Whether a point lies in the grid as it is, before its cells wrap around: where space has no end, what is far off would
@@ -42,7 +42,7 @@ INLINE bool lies_in_grid(Grid cells, real3 position) {
 
 // Whether visible points have been seen around a photon that landed there on a surface of that normal. An estimate is all
 // that is asked for: within their radius, points may find photons of cells that are not marked.
-INLINE bool is_marked(global const uint *marks, Grid cells, float3 normal, real3 position) {
+INLINE bool is_visible(global const uint *visibility, Grid cells, float3 normal, real3 position) {
   uint bucket = grid_bucket(cells, position);
-  return (marks[bucket / 4] >> (8 * (bucket % 4)) & facing_bit(normal)) != 0;
+  return (visibility[bucket / 4] >> (8 * (bucket % 4)) & facing_bit(normal)) != 0;
 }

@@ -1,4 +1,4 @@
-// The numbers of camera paths: a pixel's samples fill the unit square more evenly than independent ones, for each pair of
+// The sample dimensions of camera paths: a pixel's samples fill the unit square more evenly than independent ones, for each pair of
 // numbers of each dimension of dims.h. Every pair is a (0,2)-sequence, the first two dimensions of Sobol's, in an order
 // of its own and moved by a digital shift: the numbers of one path are uniform and independent of each other, but from
 // one path of a pixel to its next all of them take steps alike.
@@ -76,7 +76,7 @@ INLINE real4 path_random4(const PathSampler *sampler, uint dimension) {
 
 // The same for loops over paths that are to be vectorised, where `sobol` is known when they are compiled: they take scalars
 // alone, while elsewhere four words shifted at once are worth 4% of a camera path.
-INLINE real4 path_random4_parts(const PathSampler *sampler, uint dimension) {
+INLINE real4 path_random4_soa(const PathSampler *sampler, uint dimension) {
   if (sampler->sobol == 0) return random4(sampler->stream, dimension);
   uint4 shift, points = sobol_points(sampler, dimension, &shift);
   return uniform4((uint4)(points.x ^ shift.x, points.y ^ shift.y, points.z ^ shift.z, points.w ^ shift.w));

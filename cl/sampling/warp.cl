@@ -52,7 +52,7 @@ INLINE real3 hemisphere_cosine_by(real u, real v, real3 n) {
   real z = sqrt(max((real)0, 1 - d.x * d.x - d.y * d.y));
   real3 tangent, bitangent;
   orthonormal_basis(n, &tangent, &bitangent);
-  return unit3(sum3(sum3(scaled3(d.x, tangent), scaled3(d.y, bitangent)), scaled3(max(z, (real)1e-6f), n)));
+  return unit3(add3(add3(scaled3(d.x, tangent), scaled3(d.y, bitangent)), scaled3(max(z, (real)1e-6f), n)));
 }
 INLINE real3 hemisphere_cosine(real2 u, real3 n) { return hemisphere_cosine_by(u.x, u.y, n); }
 
@@ -72,7 +72,7 @@ INLINE real3 cone_uniform_by(real u, real v, real3 axis, real one_minus_cos) {
   real2 around = cos_sin_turn(v);
   real3 tangent, bitangent;
   orthonormal_basis(axis, &tangent, &bitangent);
-  return unit3(sum3(sum3(scaled3(s * around.x, tangent), scaled3(s * around.y, bitangent)), scaled3(1 - drop, axis)));
+  return unit3(add3(add3(scaled3(s * around.x, tangent), scaled3(s * around.y, bitangent)), scaled3(1 - drop, axis)));
 }
 INLINE real3 cone_uniform(real2 u, real3 axis, real one_minus_cos) {
   return cone_uniform_by(u.x, u.y, axis, one_minus_cos);

@@ -35,7 +35,7 @@ INLINE real error_along(real error, real3 n) { return error * (fabs(n.x) + fabs(
 // incidence surfaces that are apart by their errors are met far from each other; below a cosine of 0.02 not all are found.
 INLINE Ray contact_ray(real3 position, real3 direction, real3 n, real error, real *t_max) {
   real reach = 8 * error_along(error, n) / fmax(fabs(dot3(direction, n)), (real)0.02f);
-  Ray ray = {along3(position, -reach, direction), direction};
+  Ray ray = {ray_at(position, -reach, direction), direction};
   *t_max = 2 * reach;
   return ray;
 }
@@ -89,7 +89,7 @@ OUTLINE void contact_find(const Scene *scene, Ray ray, Hit hit, Surface *surface
   for (uint i = 0; i < list.count; ++i) {
     Surface other;
     geometry_surface(&scene->geometry, probe, list.hit[i], &other);
-    real apart = fabs(dot3(n, difference3(other.position, surface->position)));
+    real apart = fabs(dot3(n, sub3(other.position, surface->position)));
     real error = error_along(other.error, other.geometric_normal);
     // A ray that leaves either may pass the other by where they are so near: both places are known to their errors, and
     // the ray is moved off by one of them.
@@ -108,12 +108,12 @@ OUTLINE void contact_find(const Scene *scene, Ray ray, Hit hit, Surface *surface
 
 // The medium behind the faces of `faces`, of which those that the path enters count only without a floor. A body that is
 // left without having been entered held the path all along: its surface is open.
-INLINE bool contact_media(const ContactFaces *faces, Interface *interface, uint *faults) {
+INLINE bool contact_media(const ContactFaces *faces, Interface *interface, uint *diagnostics) {
   bool crosses = false;
   for (uint i = 0; i < faces->count; ++i)
     if (faces->crossing[i] == CROSSING_LEAVES && !medium_stack_holds(&interface->before, faces->material[i])) {
-      *faults |= FAULT_MEDIA_LEFT;
-      medium_stack_enter(&interface->before, faces->material[i], faults);
+      *diagnostics |= DIAGNOSTIC_MEDIA_LEFT;
+      medium_stack_enter(&interface->before, faces->material[i], diagnostics);
     }
   interface->behind = interface->before;
   for (uint i = 0; i < faces->count; ++i) {
@@ -122,7 +122,7 @@ INLINE bool contact_media(const ContactFaces *faces, Interface *interface, uint 
       medium_stack_leave(&interface->behind, faces->material[i]);
     } else if (!interface->floor) {
       crosses = true;
-      if (faces->crossing[i] == CROSSING_ENTERS) medium_stack_enter(&interface->behind, faces->material[i], faults);
+      if (faces->crossing[i] == CROSSING_ENTERS) medium_stack_enter(&interface->behind, faces->material[i], diagnostics);
     }
   }
   return crosses;
@@ -137,14 +137,14 @@ INLINE uint boundary_material(const Interface *interface) {
 // What a path in the media `before` meets where `ray` has met `surface` at `hit`: takes the face of the boundary in their
 // place, or the opaque surface.
 INLINE Interface contact_meet(const Scene *scene, Ray ray, const MediumStack *before, Hit *hit, Surface *surface,
-                              uint *faults) {
+                              uint *diagnostics) {
   Interface interface;
   interface.before = interface.behind = *before;
   interface.crosses = interface.floor = false;
   if (before->count == 0 && !is_dielectric(scene, surface)) return interface;
   ContactFaces faces;
   contact_find(scene, ray, *hit, surface, &faces, &interface);
-  interface.crosses = contact_media(&faces, &interface, faults);
+  interface.crosses = contact_media(&faces, &interface, diagnostics);
   real error = surface->error;
   Hit first = *hit;
   if (interface.crosses) {

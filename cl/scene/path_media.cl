@@ -35,12 +35,12 @@ INLINE Interior interior_of_stack(const Scene *scene, const MediumStack *stack) 
 // The dielectrics that hold a point: those that a ray from there leaves more often than it enters them. The ray follows the
 // normals of open surfaces, behind which all counts as inside. Of a sphere or a revolved curve the nearest hit alone is
 // known; it is an exit from inside, and only from there.
-OUTLINE MediumStack media_around(const Scene *scene, real3 point, uint *faults) {
+OUTLINE MediumStack media_around(const Scene *scene, real3 point, uint *diagnostics) {
   Ray ray = {point, unit3(scene->inside_direction)};
   HitFilter filter = {scene->materials, true};
   HitList list;
   geometry_hits(&scene->geometry, ray, INFINITY, &filter, &list);
-  if (list.full) *faults |= FAULT_MEDIA_FULL;
+  if (list.full) *diagnostics |= DIAGNOSTIC_MEDIA_FULL;
   uint material[HIT_LIST_CAPACITY];
   int exits[HIT_LIST_CAPACITY];
   uint count = 0;
@@ -60,23 +60,23 @@ OUTLINE MediumStack media_around(const Scene *scene, real3 point, uint *faults) 
   }
   MediumStack stack = medium_stack_none();
   for (uint k = 0; k < count; ++k)
-    if (exits[k] > 0) medium_stack_enter(&stack, material[k], faults);
+    if (exits[k] > 0) medium_stack_enter(&stack, material[k], diagnostics);
   return stack;
 }
 
 // The media of a path that starts at the camera.
-INLINE PathMedia media_at_camera(const Scene *scene, Ray ray, uint *faults) {
+INLINE PathMedia media_at_camera(const Scene *scene, Ray ray, uint *diagnostics) {
   PathMedia media = media_outside();
-  if (nested(scene) && (scene->nested & NESTED_CAMERA)) media.stack = media_around(scene, ray.origin, faults);
+  if (nested(scene) && (scene->nested & NESTED_CAMERA)) media.stack = media_around(scene, ray.origin, diagnostics);
   return media;
 }
 
 // The media of a photon that starts at an emitter. A face of a dielectric in contact with that is the first thing that it
 // meets.
-INLINE PathMedia media_at_emitter(const Scene *scene, uint emitter, Ray ray, uint *faults) {
+INLINE PathMedia media_at_emitter(const Scene *scene, uint emitter, Ray ray, uint *diagnostics) {
   PathMedia media = media_outside();
   if (!nested(scene) || !scene->emitters[emitter].in_dielectric) return media;
-  media.stack = media_around(scene, ray.origin, faults);
+  media.stack = media_around(scene, ray.origin, diagnostics);
   real3 d = ray.direction;
   real error = STORED_GAMMA(16) * max_component(abs3(ray.origin)), t_max;
   Ray probe = contact_ray(ray.origin, d, d, error, &t_max);
@@ -91,7 +91,7 @@ INLINE PathMedia media_at_emitter(const Scene *scene, uint emitter, Ray ray, uin
     Surface surface;
     geometry_surface(&scene->geometry, probe, list.hit[i], &surface);
     real3 n = surface.geometric_normal;
-    real apart = fabs(dot3(n, difference3(surface.position, ray.origin)));
+    real apart = fabs(dot3(n, sub3(surface.position, ray.origin)));
     if (!(apart <= 2 * error_along(fmax(error, surface.error), n))) continue;
     if (!is_dielectric(scene, &surface)) {
       Hit floor = list.hit[i];
@@ -99,7 +99,7 @@ INLINE PathMedia media_at_emitter(const Scene *scene, uint emitter, Ray ray, uin
       continue;
     }
     if (!(dot3(n, d) < 0)) continue;
-    if (!covered) media.covered = gap = media_around(scene, along3(ray.origin, t_max, d), faults);
+    if (!covered) media.covered = gap = media_around(scene, ray_at(ray.origin, t_max, d), diagnostics);
     if (!covered || surface.material >= top) {
       top = surface.material;
       media.cover = list.hit[i].primitive, media.cover_u = list.hit[i].u, media.cover_v = list.hit[i].v;
@@ -126,8 +126,8 @@ INLINE bool media_closest(const Scene *scene, const PathMedia *media, Ray ray, H
 
 // What a path meets at `hit`; see contact_meet().
 INLINE Interface media_arrive(const Scene *scene, const PathMedia *media, Ray ray, Hit *hit, Surface *surface,
-                              uint *faults) {
-  if (media->contact == CONTACT_NONE) return contact_meet(scene, ray, &media->stack, hit, surface, faults);
+                              uint *diagnostics) {
+  if (media->contact == CONTACT_NONE) return contact_meet(scene, ray, &media->stack, hit, surface, diagnostics);
   Interface interface;
   interface.before = media->stack;
   interface.behind = media->covered;
@@ -144,7 +144,7 @@ INLINE bool media_covered(const Scene *scene, const PathMedia *media) {
 // Makes `bsdf` that of the boundary: its index is the ratio of those of the media that meet there. Of dispersive ones one
 // channel of `carried` goes on. A boundary within the body that fills both sides is none.
 INLINE void media_bsdf(const Scene *scene, const Interface *interface, const Surface *surface, real3 direction,
-                       real random, Bsdf *bsdf, real3 *carried) {
+                       real random, Bsdf *bsdf, real3 *throughput) {
   uint before = medium_stack_top(&interface->before), behind = medium_stack_top(&interface->behind);
   real3 w = (real3)(0, 0, 0);
   real index_before = 1, index_behind = 1, dispersion_before = 0, dispersion_behind = 0;
@@ -157,7 +157,7 @@ INLINE void media_bsdf(const Scene *scene, const Interface *interface, const Sur
     if (HAS(EFFECT_DISPERSION)) dispersion_behind = scene->materials[behind].absorption.w;
   }
   if (HAS(EFFECT_DISPERSION) && before != behind && (dispersion_before > 0 || dispersion_behind > 0)) {
-    uint channel = choose_channel(random, carried);
+    uint channel = choose_channel(random, throughput);
     w = scene->inverse_wavelength2;
     real inverse = channel == 0 ? w.x : channel == 1 ? w.y : w.z;
     index_before += dispersion_before * inverse;
@@ -186,9 +186,9 @@ INLINE bool cover_ahead(const Scene *scene, const PathMedia *media, real3 positi
 
 // Takes a path on from `surface`, which it met at `hit` along `arriving`, in the direction `leaving`; returns its origin.
 INLINE real3 media_depart(const Scene *scene, const Interface *interface, const Surface *surface, Hit hit,
-                          real3 arriving, real3 leaving, PathMedia *media) {
+                          real3 wi, real3 leaving, PathMedia *media) {
   real3 g = surface->geometric_normal;
-  bool through = dot3(arriving, g) * dot3(leaving, g) > 0;
+  bool through = dot3(wi, g) * dot3(leaving, g) > 0;
   uint from = media->contact;
   media->contact = CONTACT_NONE;
   if (from == CONTACT_FLOOR) {
@@ -203,7 +203,7 @@ INLINE real3 media_depart(const Scene *scene, const Interface *interface, const 
   } else {
     media->stack = interface->behind;
     real3 n = interface->floor_normal;
-    if (interface->floor && dot3(arriving, n) * dot3(leaving, n) > 0) {
+    if (interface->floor && dot3(wi, n) * dot3(leaving, n) > 0) {
       media->contact = CONTACT_FLOOR;
       media->covered = interface->before;
       Hit floor = interface->floor_hit;
@@ -227,31 +227,31 @@ typedef struct {
 INLINE void boundary_at_camera(const Scene *scene, Boundary *boundary, Ray ray, Interior *interior,
                                volatile global Counters *counters) {
   if (!nested(scene)) return;
-  uint faults = 0;
-  boundary->media = media_at_camera(scene, ray, &faults);
+  uint diagnostics = 0;
+  boundary->media = media_at_camera(scene, ray, &diagnostics);
   *interior = interior_of_stack(scene, &boundary->media.stack);
-  count_faults(faults, counters);
+  count_diagnostics(diagnostics, counters);
 }
 
 // `interior` becomes that of the segment that ends here.
 INLINE void boundary_arrive(const Scene *scene, Boundary *boundary, Ray ray, Hit *hit, Surface *surface,
                             Interior *interior, volatile global Counters *counters) {
   if (!nested(scene)) return;
-  uint faults = 0;
-  boundary->interface = media_arrive(scene, &boundary->media, ray, hit, surface, &faults);
+  uint diagnostics = 0;
+  boundary->interface = media_arrive(scene, &boundary->media, ray, hit, surface, &diagnostics);
   boundary->hit = *hit;
   *interior = interior_of_stack(scene, &boundary->interface.before);
-  count_faults(faults, counters);
+  count_diagnostics(diagnostics, counters);
 }
 
 // Completes a Bsdf at glass: by dispersion, and by what lies on the other side.
 INLINE void boundary_bsdf(const Scene *scene, const Boundary *boundary, global const Material *material,
-                          const Surface *surface, real3 direction, real random, Bsdf *bsdf, real3 *carried) {
+                          const Surface *surface, real3 direction, real random, Bsdf *bsdf, real3 *throughput) {
   if (nested(scene)) {
     if (boundary->interface.crosses)
-      media_bsdf(scene, &boundary->interface, surface, direction, random, bsdf, carried);
+      media_bsdf(scene, &boundary->interface, surface, direction, random, bsdf, throughput);
   } else if (HAS(EFFECT_DISPERSION)) {
-    disperse(bsdf, material, scene->inverse_wavelength2, random, carried);
+    disperse(bsdf, material, scene->inverse_wavelength2, random, throughput);
   }
 }
 
@@ -261,8 +261,8 @@ INLINE Interior boundary_behind(const Scene *scene, const Boundary *boundary) {
 }
 
 // The origin of the ray that leaves the vertex in the direction `leaving`.
-INLINE real3 boundary_depart(const Scene *scene, Boundary *boundary, const Surface *surface, real3 arriving,
+INLINE real3 boundary_depart(const Scene *scene, Boundary *boundary, const Surface *surface, real3 wi,
                              real3 leaving) {
   if (!nested(scene)) return offset_origin(surface->position, surface->error, surface->geometric_normal, leaving);
-  return media_depart(scene, &boundary->interface, surface, boundary->hit, arriving, leaving, &boundary->media);
+  return media_depart(scene, &boundary->interface, surface, boundary->hit, wi, leaving, &boundary->media);
 }

@@ -40,8 +40,8 @@ typedef struct {
                  (real3)((params).inside_direction[0], (params).inside_direction[1], (params).inside_direction[2]), 0}
 
 // Whether the medium lies along the ray up to `hit`, which is one where `met`: everywhere but inside of glass.
-INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool met, Interior interior) {
-  if (!met) return !interior.glass;
+INLINE bool medium_along(const Scene *scene, Ray ray, Hit hit, bool did_hit, Interior interior) {
+  if (!did_hit) return !interior.glass;
   Surface surface;
   geometry_surface(&scene->geometry, ray, hit, &surface);
   return !interior_before(interior, scene->materials + surface.material, &surface, ray.direction).glass;

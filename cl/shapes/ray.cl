@@ -14,7 +14,7 @@ typedef struct {
   real t;
   uint primitive;  // HIT_NONE; HIT_SHAPE | index into shapes; else a triangle reference
   real u, v;       // triangle: barycentric weights of vertices 1 and 2; bezier: see bezier.cl; else unused
-  uint faults;     // FAULT_* bits of this ray; see faults.cl
+  uint diagnostics;     // FAULT_* bits of this ray; see faults.cl
 } Hit;
 
 // Rays by component, and up to where they are traced or what they have met so far, as Hit has it.
@@ -57,7 +57,7 @@ typedef struct {
   uint material;
 } SurfaceParts;
 
-INLINE void surface_take_apart(const Surface *surface, SurfaceParts *parts) {
+INLINE void surface_unpack(const Surface *surface, SurfaceParts *parts) {
   real3 p = surface->position, g = surface->geometric_normal, s = surface->shading_normal;
   parts->position[0] = p.x, parts->position[1] = p.y, parts->position[2] = p.z;
   parts->geometric_normal[0] = g.x, parts->geometric_normal[1] = g.y, parts->geometric_normal[2] = g.z;
@@ -66,7 +66,7 @@ INLINE void surface_take_apart(const Surface *surface, SurfaceParts *parts) {
   parts->error = surface->error, parts->material = surface->material;
 }
 
-INLINE void surface_put_together(const SurfaceParts *parts, Surface *surface) {
+INLINE void surface_pack(const SurfaceParts *parts, Surface *surface) {
   surface->position = (real3)(parts->position[0], parts->position[1], parts->position[2]);
   surface->geometric_normal =
       (real3)(parts->geometric_normal[0], parts->geometric_normal[1], parts->geometric_normal[2]);
@@ -82,6 +82,6 @@ INLINE void surface_put_together(const SurfaceParts *parts, Surface *surface) {
 INLINE real3 offset_origin(real3 position, real error, real3 n, real3 direction) {
   real distance = error * (fabs(n.x) + fabs(n.y) + fabs(n.z));
   real3 offset = scaled3(dot3(direction, n) < 0 ? -distance : distance, n);
-  real3 origin = sum3(position, offset);
+  real3 origin = add3(position, offset);
   return (real3)(next_beyond(origin.x, offset.x), next_beyond(origin.y, offset.y), next_beyond(origin.z, offset.z));
 }

@@ -21,15 +21,15 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   hit->primitive = HIT_SHAPE | index;
   hit->u = parameters.x;
   hit->v = parameters.y;
-  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER && parameters.x < 0) hit->faults |= FAULT_UNRESOLVED;
+  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER && parameters.x < 0) hit->diagnostics |= DIAGNOSTIC_UNRESOLVED;
   return true;
 }
 
 // Whether the ray meets the shape at 0 < t < t_max. Adds to *faults.
-INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *faults) {
+INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *diagnostics) {
   Hit hit = hit_none(t_max);
   bool occluded = shape_closest(shape, 0, curves, ray, &hit);
-  *faults |= hit.faults;
+  *diagnostics |= hit.diagnostics;
   return occluded;
 }
 

@@ -34,8 +34,8 @@ INLINE void sphere_surface(global const Shape *shape, Ray ray, Hit hit, Surface 
   global const float *sphere = (global const float *)&shape->sphere;
   real3 centre = (real3)(sphere[0], sphere[1], sphere[2]);
   real radius = sphere[3];
-  real3 n = unit3(along3(difference3(ray.origin, centre), hit.t, ray.direction));
-  surface->position = along3(centre, radius, n);  // back onto the surface, whatever t lost
+  real3 n = unit3(ray_at(sub3(ray.origin, centre), hit.t, ray.direction));
+  surface->position = ray_at(centre, radius, n);  // back onto the surface, whatever t lost
   // Rounding of the last sum, of n and its product; and of |f|^2 - radius^2 in sphere_intersect, whose sign
   // must be right for a ray that is spawned here.
   surface->error = GAMMA(1) * max_component(abs3(surface->position)) + GAMMA(12) * radius;

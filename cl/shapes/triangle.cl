@@ -49,13 +49,13 @@ INLINE real cancelled(real a, real d, real b, real c, real a_low, real d_low, re
 
 // a - b is the result plus what is added to `low`, exactly (Knuth's TwoSum).
 INLINE real3 exact_difference(real3 a, real3 b, real3 *low) {
-  real3 d = difference3(a, b), c = difference3(a, d);
-  *low = sum3(difference3(a, sum3(d, c)), difference3(c, b));
+  real3 d = sub3(a, b), c = sub3(a, d);
+  *low = add3(sub3(a, add3(d, c)), sub3(c, b));
   return d;
 }
 
 // What is left of a normal when long products cancel, its largest component 1; `size` is the triangle's.
-INLINE real3 needle_normal(real3 a, real3 b, real3 c, real size) {
+INLINE real3 sliver_normal(real3 a, real3 b, real3 c, real size) {
   real3 e_low, f_low;
   real scale = unit_scale(size);
   real3 e = exact_difference(scaled3(scale, b), scaled3(scale, a), &e_low);
@@ -69,18 +69,18 @@ INLINE real3 needle_normal(real3 a, real3 b, real3 c, real size) {
 }
 
 // The unit normal of a triangle by its winding; the edges are scaled first, since the squared area of a triangle
-// of 1e-10 underflows. A needle's normal is what is left when long products cancel, so there the roundings of edges
+// of 1e-10 underflows. A sliver's normal is what is left when long products cancel, so there the roundings of edges
 // and products are added back: without, one of 1 : 10^6 is off by some per cent and one of 1 : 10^8 arbitrary.
 INLINE real3 triangle_normal(real3 a, real3 b, real3 c) {
-  real3 e = difference3(b, a), f = difference3(c, a);
+  real3 e = sub3(b, a), f = sub3(c, a);
   real size = max(max_component(abs3(e)), max_component(abs3(f)));
   real scale = 1 / size;
   e = scaled3(scale, e), f = scaled3(scale, f);
   real3 n = cross3(e, f);
   real square = dot3(n, n);
   real x = n.x, y = n.y, z = n.z, length = sqrt(square);
-  if (HAS(EFFECT_NEEDLES) && !(square > (real)NEEDLE_SINE2 * dot3(e, e) * dot3(f, f))) {
-    n = needle_normal(a, b, c, size);
+  if (HAS(EFFECT_SLIVERS) && !(square > (real)SLIVER_SINE2 * dot3(e, e) * dot3(f, f))) {
+    n = sliver_normal(a, b, c, size);
     x = n.x, y = n.y, z = n.z, length = sqrt(dot3(n, n));
   }
   return scaled3(1 / length, (real3)(x, y, z));
@@ -112,12 +112,12 @@ INLINE void triangle_surface(global const TriangleBlock *blocks, global const Tr
   real3 geometric_normal = triangle_normal(a, b, c);
   real weight_0 = 1 - hit.u - hit.v;
   a = scaled3(weight_0, a), b = scaled3(hit.u, b), c = scaled3(hit.v, c);
-  surface->position = sum3(sum3(a, b), c);
-  surface->error = (real)GAMMA(7) * max_component(sum3(sum3(abs3(a), abs3(b)), abs3(c)));
+  surface->position = add3(add3(a, b), c);
+  surface->error = (real)GAMMA(7) * max_component(add3(add3(abs3(a), abs3(b)), abs3(c)));
   surface->material = attribute->material & ~TRIANGLE_SMOOTH;
   real x = geometric_normal.x, y = geometric_normal.y, z = geometric_normal.z;
   if (HAS(EFFECT_SMOOTH) && (attribute->material & TRIANGLE_SMOOTH)) {
-    real3 n = sum3(sum3(scaled3(weight_0, normal_from_octahedral(attribute->normal[0])),
+    real3 n = add3(add3(scaled3(weight_0, normal_from_octahedral(attribute->normal[0])),
                         scaled3(hit.u, normal_from_octahedral(attribute->normal[1]))),
                    scaled3(hit.v, normal_from_octahedral(attribute->normal[2])));
     real squared = dot3(n, n);

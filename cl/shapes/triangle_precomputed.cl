@@ -40,14 +40,14 @@ INLINE bool block_intersect(global const TriangleBlock *block, TriangleRay ray, 
   // Empty lanes and those of shapes have NaN in their maps, and every comparison with it is false.
   real8 height = fma(m[2][0], ox, fma(m[2][1], oy, oz + m[2][2]));
   real8 distance = -height / fma(m[2][0], dx, fma(m[2][1], dy, dz));
-  mask8 met = (distance > 0) & (distance < t_max);
-  if (!any_lane(met)) return false;
+  mask8 did_hit = (distance > 0) & (distance < t_max);
+  if (!any_lane(did_hit)) return false;
   real8 x = fma(distance, dx, ox), y = fma(distance, dy, oy);
   real8 u = fma(m[0][0], x, fma(m[0][1], y, m[0][2]));
   real8 v = fma(m[1][0], x, fma(m[1][1], y, m[1][2]));
-  met &= (u >= 0) & (v >= 0) & (u + v <= 1);
-  if (!any_lane(met)) return false;
-  *t = met ? distance : (real8)INFINITY;
+  did_hit &= (u >= 0) & (v >= 0) & (u + v <= 1);
+  if (!any_lane(did_hit)) return false;
+  *t = did_hit ? distance : (real8)INFINITY;
   *weight_1 = u;
   *weight_2 = v;
   return true;

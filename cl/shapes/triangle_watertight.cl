@@ -76,7 +76,7 @@ INLINE bool block_corners(global const TriangleBlock *block, TriangleRay ray, Bl
 
 // The triangles of a block that the ray meets for 0 < t < t_max, by their corners, and for these the distances and the
 // weights of vertices 1 and 2.
-INLINE mask8 block_meets(const BlockCorners *c, real scale_z, real t_max, real8 *t, real8 *weight_1, real8 *weight_2) {
+INLINE mask8 block_hits(const BlockCorners *c, real scale_z, real t_max, real8 *t, real8 *weight_1, real8 *weight_2) {
   real8 u = signed_difference(c->cx, c->by, c->cy, c->bx);
   real8 v = signed_difference(c->ax, c->cy, c->ay, c->cx);
   real8 w = signed_difference(c->bx, c->ay, c->by, c->ax);
@@ -96,9 +96,9 @@ INLINE bool block_intersect(global const TriangleBlock *block, TriangleRay ray, 
   BlockCorners corners;
   real8 distance;
   if (!block_corners(block, ray, &corners)) return false;
-  mask8 met = block_meets(&corners, ray.scale_z, t_max, &distance, weight_1, weight_2);
-  if (!any_lane(met)) return false;
-  *t = met ? distance : (real8)INFINITY;
+  mask8 did_hit = block_hits(&corners, ray.scale_z, t_max, &distance, weight_1, weight_2);
+  if (!any_lane(did_hit)) return false;
+  *t = did_hit ? distance : (real8)INFINITY;
   return true;
 }
 #endif

@@ -14,5 +14,5 @@
 #define DIM_QUANTISE 2u    // dithering of stored flux (xyz)
 #define DIM_CHANNEL 3u     // which colour channel goes on through dispersive glass (x)
 #define DIM_MEDIUM 4u      // free flight in the medium: channel (x), distance (y)
-#define DIM_LOOK 5u        // Russian roulette of looks along unlikely lobes (x)
-#define DIM_COVERAGE 6u    // place in the disc that a visible point probes (xy), rounding (z), which disc (w)
+#define DIM_BRANCH 5u        // Russian roulette of looks along unlikely lobes (x)
+#define DIM_KERNEL_AREA 6u    // place in the disc that a visible point probes (xy), rounding (z), which disc (w)

@@ -31,7 +31,7 @@
 #define EFFECT_AIMED_PHOTONS (1u << 20)  // photons aimed at what focuses them
 
 #define EFFECT_SMOOTH (1u << 21)   // triangles with shading normals
-#define EFFECT_NEEDLES (1u << 22)  // triangles too thin for the cross product of their edges
+#define EFFECT_SLIVERS (1u << 22)  // triangles too thin for the cross product of their edges
 
 #define EFFECT_NESTED (1u << 23)   // dielectrics that touch, overlap, or hold the camera or lamps
 #define EFFECT_WALLS (1u << 24)    // surfaces that may part photons from visible points
@@ -41,6 +41,6 @@
 #define EFFECT_ALL ((1u << 26) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
-#define OUTPUT_LAYERS (1u << 31)  // the layers of layers.cl beside the picture
+#define OUTPUT_LIGHT_PASSES (1u << 31)  // the layers of layers.cl beside the picture
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)

@@ -2,19 +2,19 @@
 #pragma once
 
 // What the photons of a launch are: see aimed_photons.cl for those before the first pass, and guided_photons.cl for those
-// from PHOTONS_SCOUTS on.
+// from PHOTONS_PILOT_PATHS on.
 #define PHOTONS_PLAIN 0u
-#define PHOTONS_TO_AIM_BY 1u
-#define PHOTONS_SCOUTS 2u
-#define PHOTONS_COPIES 3u
-#define PHOTONS_SEEDS 4u
-#define PHOTONS_TO_LEARN_BY 5u  // scouts of emission_map.cl, which leave nothing but the list of seeds
+#define PHOTONS_FOR_PROJECTION_MAP 1u
+#define PHOTONS_PILOT_PATHS 2u
+#define PHOTONS_MUTATED_PATHS 3u
+#define PHOTONS_CURRENT_PATHS 4u
+#define PHOTONS_TO_LEARN_BY 5u  // pilot paths of emission_map.cl, which leave nothing but the list of seeds
 
 // Cells along each side of the square of numbers by which photons leave an emitter, and such squares at most: emitters
 // beyond share one with others.
-#define AIM_SIDE 32u
-#define AIM_CELLS (AIM_SIDE * AIM_SIDE)
-#define AIM_SQUARES 16u
+#define PROJECTION_SIDE 32u
+#define PROJECTION_CELLS (PROJECTION_SIDE * PROJECTION_SIDE)
+#define PROJECTION_SQUARES 16u
 
 // Boxes of the photon grid along a camera ray's segment in the medium, at most.
 #define MOST_SEGMENT_STEPS 1024u
@@ -49,8 +49,8 @@ typedef struct {
   float indirect_radius;     // the radius within which indirect photons are gathered, over that of the others
   uint emission_met;         // 1 where a ray can meet emission: of a surface or from beyond the scene
   uint photon_role;          // PHOTONS_*
-  uint photon_copies;        // of each seed
-  uint sobol;                // 1 where the numbers of camera paths are those of sobol.cl, 0 where they are independent
+  uint photon_mutations;        // of each seed
+  uint sobol;                // 1 where the sample dimensions of camera paths are those of sobol.cl, 0 where they are independent
   uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
   uint nested;               // NESTED_* bits; 0 where no dielectric touches or holds anything
   float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
@@ -72,8 +72,8 @@ typedef struct {
   float stay;   // the probability that numbers which fall into it keep it
   uint other;   // where they go else: a cell of the same square
   float share;  // of the flux that a photon would have, for one that leaves by this cell
-} AimCell;
-CHECK_SIZE(AimCell, 12);
+} ProjectionCell;
+CHECK_SIZE(ProjectionCell, 12);
 
 // The numbers that decide how a photon starts: which emitter, two of the place, two of the direction.
 #define START_NUMBERS 5u
@@ -93,7 +93,7 @@ CHECK_SIZE(EmissionCell, 48);
 typedef struct {
   uint photons;        // stored, or wanted where that is above Params.photon_capacity
   uint indirect;       // those of them that are marked INDIRECT_PHOTON
-  uint seeds;          // scouts that landed where the camera sees
+  uint seeds;          // pilot paths that landed where the camera sees
   uint rays;           // traced, shadow rays included
   uint non_finite;     // samples that were NaN or Inf and were left out
   uint saturated;      // photons whose flux, or samples whose sum, was above what the record holds

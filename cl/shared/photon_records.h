@@ -5,7 +5,7 @@
 // (direction_pack).
 #define IN_MEDIUM 0x80000000u
 // The mark of visible points whose path was scattered before by other than a perfectly specular lobe: their `normal`.
-#define BEYOND_RECEIVER 0x40000000u
+#define BEYOND_DIFFUSE 0x40000000u
 // The mark of photons that landed on a surface after another diffuse one, or the medium, had scattered them: their
 // `normal`. Light that came so is smooth where caustics and the borders of shadows are sharp, and may be gathered within
 // a larger radius (Jensen, "Global Illumination using Photon Maps", 1996, keeps two maps for the same reason).
@@ -13,9 +13,9 @@
 
 // What the probe of coverage.cl tells, in VisiblePoint.normal: that there is one, whether it is of the disc of half
 // the radius, and how much surface there is over its place, by area: 0 to 2, drawn so that its expectation is exact.
-#define COVERAGE_PROBED 0x08000000u
-#define COVERAGE_OF_HALF 0x04000000u
-#define COVERAGE_SHIFT 24u
+#define KERNEL_AREA_PROBED 0x08000000u
+#define KERNEL_AREA_OF_HALF 0x04000000u
+#define KERNEL_AREA_SHIFT 24u
 
 // Where a camera path met a diffuse surface. `weight` is throughput * albedo / pi: times the flux density
 // found around the point it is reflected radiance at the camera. A path that met none has weight 0. In the medium
@@ -36,14 +36,14 @@ typedef struct {
   float direction[3];
   float t, u, v;
   uint primitive;
-} FirstHit;
-CHECK_SIZE(FirstHit, 40);
+} PrimaryHit;
+CHECK_SIZE(PrimaryHit, 40);
 
-// What of VisiblePoint.radiance belongs to each layer. With OUTPUT_LAYERS those of all points of a launch follow the
+// What of VisiblePoint.radiance belongs to each layer. With OUTPUT_LIGHT_PASSES those of all points of a launch follow the
 // points in their buffer.
 typedef struct {
-  real radiance[LAYER_COUNT][3];
-} VisibleLayers;
+  real radiance[LIGHT_PASS_COUNT][3];
+} VisibleLightPasses;
 
 // What leads from the beginning of a visible point's segment in the medium to its end. With EFFECT_MEDIUM those of all
 // points of a launch follow the points and layers in their buffer.
@@ -60,10 +60,10 @@ typedef struct {
   real position[3];
   uint normal;         // normal_pack, facing the side that the photon came from; in the medium, where it was going
   uint flux_rg;        // red in the low 16 bits, green in the high ones
-  uint flux_b;         // in the low 16 bits; from bit PHOTON_LAYER_SHIFT on, with OUTPUT_LAYERS, the photon's layer
+  uint flux_b;         // in the low 16 bits; from bit PHOTON_LIGHT_PASS_SHIFT on, with OUTPUT_LIGHT_PASSES, the photon's layer
 } Photon;
 
-#define PHOTON_LAYER_SHIFT 16u
+#define PHOTON_LIGHT_PASS_SHIFT 16u
 
 // Eight photons as the gather takes them, eight at a time. In the sorted map photon i is lane i % 8 of block i / 8.
 typedef struct {
@@ -75,13 +75,13 @@ typedef struct {
 
 #ifdef CAUSTICL_DOUBLE
 CHECK_SIZE(VisiblePoint, 80);
-CHECK_SIZE(VisibleLayers, 72);
+CHECK_SIZE(VisibleLightPasses, 72);
 CHECK_SIZE(VisibleSegment, 24);
 CHECK_SIZE(Photon, 40);
 CHECK_SIZE(PhotonBlock, 288);
 #else
 CHECK_SIZE(VisiblePoint, 40);
-CHECK_SIZE(VisibleLayers, 36);
+CHECK_SIZE(VisibleLightPasses, 36);
 CHECK_SIZE(VisibleSegment, 12);
 CHECK_SIZE(Photon, 24);
 CHECK_SIZE(PhotonBlock, 192);

@@ -7,7 +7,7 @@
 typedef struct {
   float radius2_hi, radius2_lo;
   uint photons_low, photons_high;
-  uint coverage;  // see coverage_mean.cl
+  uint coverage;  // see kernel_area_mean.cl
 } SppmPixel;
 CHECK_SIZE(SppmPixel, 20);
 
@@ -17,26 +17,26 @@ typedef struct {
   float sum[3];
   float low[3];
   uint left_out;  // estimates that were not finite: the mean is over the others
-  float spread;   // standard deviation of the estimates' luminance from their mean, over their number
-  float blur[2];  // what luminance owes to the photons' kernel, the mean of each half of the passes
-  float alternating;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
+  float m2_deviation;   // standard deviation of the estimates' luminance from their mean, over their number
+  float kernel_bias[2];  // what luminance owes to the photons' kernel, the mean of each half of the passes
+  float signed_half_sum;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
   uint unknown;       // 1 where the error of the mean cannot be told: see unknown_error.cl
 } FilmPixel;
 CHECK_SIZE(FilmPixel, 48);
 
 // The layers of a picture, see layers.cl.
-#define LAYER_DIRECT 0u
-#define LAYER_CAUSTIC 1u
-#define LAYER_INDIRECT 2u
-#define LAYER_COUNT 3u
+#define LIGHT_PASS_DIRECT 0u
+#define LIGHT_PASS_CAUSTIC 1u
+#define LIGHT_PASS_INDIRECT 2u
+#define LIGHT_PASS_COUNT 3u
 
-// A pixel's sums of what belongs to each layer, as FilmPixel has them of the whole. With OUTPUT_LAYERS those of all
+// A pixel's sums of what belongs to each layer, as FilmPixel has them of the whole. With OUTPUT_LIGHT_PASSES those of all
 // pixels follow the film in its buffer.
 typedef struct {
-  float sum[LAYER_COUNT][3];
-  float low[LAYER_COUNT][3];
-} FilmLayers;
-CHECK_SIZE(FilmLayers, 72);
+  float sum[LIGHT_PASS_COUNT][3];
+  float low[LIGHT_PASS_COUNT][3];
+} FilmLightPasses;
+CHECK_SIZE(FilmLightPasses, 72);
 
 // How far a pixel's luminance may be off.
 typedef struct {
@@ -44,6 +44,6 @@ typedef struct {
   float noise;         // standard deviation of that by the pixel's own passes: its course tells that of the picture's noise
   float pooled_noise;  // the same, such that it is right of this pixel: see pixel_error of pass_film.cl
   float bias;          // absolute; infinite where the error cannot be told
-  float drawn;         // an error as noise makes it: half by how much one half of the passes is brighter than the other
+  float half_difference;         // an error as noise makes it: half by how much one half of the passes is brighter than the other
 } PixelError;
 CHECK_SIZE(PixelError, 20);

@@ -122,8 +122,8 @@ CHECK_SIZE(TriangleAttributes, 40);
 
 #define TRIANGLE_SMOOTH 0x80000000u  // `normal` holds shading normals
 
-// The squared sine of the angle at its first corner below which a triangle is a needle (EFFECT_NEEDLES).
-#define NEEDLE_SINE2 0.01f
+// The squared sine of the angle at its first corner below which a triangle is a sliver (EFFECT_SLIVERS).
+#define SLIVER_SINE2 0.01f
 
 #define EMITTER_TRIANGLE 0u
 #define EMITTER_SPHERE 1u

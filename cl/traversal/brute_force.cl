@@ -11,6 +11,7 @@
 #include "traversal/kdtree.cl"
 #include "traversal/triangle_packet.cl"
 
+#if !defined(CAUSTICL_DOUBLE) && !defined(TRIANGLES_PRECOMPUTED)
 // A packet of rays. Their largest components may lie along different axes: the order of axes that TriangleRay has for
 // each is a choice between coordinates.
 typedef struct {
@@ -56,8 +57,8 @@ INLINE void incoherent_triangle(global const TriangleBlock *blocks, uint index, 
   incoherent_corner(blocks + index, 1, lane, r, &c.bx, &c.by, &c.bz);
   incoherent_corner(blocks + index, 2, lane, r, &c.cx, &c.cy, &c.cz);
   float16 t, weight_1, weight_2;
-  int16 met = packet_meets(&c, r->scale_z, hits->t, &t, &weight_1, &weight_2);
-  packet_take(met, t, weight_1, weight_2, index * 8u + lane, blocks[index].primitive[lane], hits);
+  int16 did_hit = packet_hits(&c, r->scale_z, hits->t, &t, &weight_1, &weight_2);
+  packet_take(did_hit, t, weight_1, weight_2, index * 8u + lane, blocks[index].primitive[lane], hits);
 }
 
 // shape_closest() of a sphere, with the operations of sphere_intersect() in the same order.
@@ -71,14 +72,14 @@ INLINE void incoherent_sphere(global const Shape *shape, uint index, const Incoh
   b -= rest;
   ax = fma(-rest, dx, ax), ay = fma(-rest, dy, ay), az = fma(-rest, dz, az);
   float16 discriminant = radius * radius - (ax * ax + ay * ay + az * az);
-  int16 met = discriminant >= 0;
-  if (packet_bits(met) == 0) return;
+  int16 did_hit = discriminant >= 0;
+  if (packet_bits(did_hit) == 0) return;
   float16 root = copysign(sqrt(discriminant), b), q = b + root;
   float16 c = fx * fx + fy * fy + fz * fz - radius * radius;
   float16 other = c > 3 * radius * radius ? b - root : clamp(c / q, -fabs(q), fabs(q));
   float16 near = min(q, other), far = max(q, other);
   float16 t = near > 0 ? near : far;
-  packet_take(met & (t > 0) & (t <= hits->t), t, (float16)0, (float16)0, HIT_SHAPE | index, HIT_NONE, hits);
+  packet_take(did_hit & (t > 0) & (t <= hits->t), t, (float16)0, (float16)0, HIT_SHAPE | index, HIT_NONE, hits);
 }
 
 // shape_closest() of a disk, as disk_intersect() has it.
@@ -97,7 +98,7 @@ INLINE void incoherent_disk(global const Shape *shape, uint index, const Incoher
 
 // Takes what the tree holds into the hits, each primitive once: cells may share some. `first_shape` is the least index
 // that one of its shapes may have. The nodes of a tree lie in one piece, a node before its children.
-INLINE void meet_all(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+INLINE void intersect_all(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                      uint first_shape, const IncoherentRays *r, PacketHits *hits) {
   ulong triangles_met = 0, shapes_met = 0;
   uint last = 0;
@@ -133,7 +134,7 @@ INLINE void meet_all(global const KdNode *nodes, global const TriangleBlock *blo
 }
 
 // kdtree_closest() of the first `count` rays. Returns how many of these were traced again and cut short
-// (FAULT_TRAVERSAL_BOUND).
+// (DIAGNOSTIC_TRAVERSAL_BOUND).
 INLINE uint brute_force_closest(global const KdNode *nodes, global const TriangleBlock *blocks,
                                 global const Shape *shapes, global const float *curves, uint first_shape, uint count,
                                 const RayArrays *rays) {
@@ -144,15 +145,16 @@ INLINE uint brute_force_closest(global const KdNode *nodes, global const Triangl
     int16 member = lanes + first < count;
     PacketHits hits = {member ? vload16(0, rays->t + first) : (float16)-INFINITY, vload16(0, rays->u + first),
                        vload16(0, rays->v + first), vload16(0, rays->primitive + first), (uint16)HIT_NONE, 0};
-    meet_all(nodes, blocks, shapes, first_shape, &r, &hits);
+    intersect_all(nodes, blocks, shapes, first_shape, &r, &hits);
     packet_store(&hits, member, rays->t + first, rays->u + first, rays->v + first, rays->primitive + first);
     for (uint again = hits.again; again != 0; again &= again - 1u) {
       uint i = first + lowest_bit(again);
       Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], 0};
       kdtree_closest(nodes, blocks, shapes, curves, arrays_ray(rays, i), &hit);
-      cut_short += (hit.faults & FAULT_TRAVERSAL_BOUND) ? 1u : 0u;
+      cut_short += (hit.diagnostics & DIAGNOSTIC_TRAVERSAL_BOUND) ? 1u : 0u;
       rays->t[i] = hit.t, rays->u[i] = hit.u, rays->v[i] = hit.v, rays->primitive[i] = hit.primitive;
     }
   }
   return cut_short;
 }
+#endif

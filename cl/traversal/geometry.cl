@@ -36,12 +36,12 @@ INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
 }
 
 // Whether anything is met for 0 < t < t_max. Adds to *faults.
-INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *faults) {
+INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *diagnostics) {
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i)
-      if (shape_occluded(g->shapes + i, g->curves, ray, t_max, faults)) return true;
+      if (shape_occluded(g->shapes + i, g->curves, ray, t_max, diagnostics)) return true;
   return HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) &&
-         kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max, faults);
+         kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max, diagnostics);
 }
 
 // The surface at a hit that geometry_closest() has found along `ray`.
@@ -53,18 +53,18 @@ INLINE void geometry_surface(const Geometry *g, Ray ray, Hit hit, Surface *surfa
 }
 
 // The same for loops over paths that are to be vectorised: what the branches hand on are scalars.
-INLINE void geometry_surface_parts(const Geometry *g, Ray ray, Hit hit, Surface *surface) {
+INLINE void geometry_surface_soa(const Geometry *g, Ray ray, Hit hit, Surface *surface) {
   SurfaceParts parts;
   if (HAS(EFFECT_TRIANGLES) && !(hit.primitive & HIT_SHAPE)) {
     Surface triangle;
     triangle_surface(g->blocks, g->attributes, hit, &triangle);
-    surface_take_apart(&triangle, &parts);
+    surface_unpack(&triangle, &parts);
   } else {
     Surface shape;
     shape_surface(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, &shape);
-    surface_take_apart(&shape, &parts);
+    surface_unpack(&shape, &parts);
   }
-  surface_put_together(&parts, surface);
+  surface_pack(&parts, surface);
 }
 
 // The index of the material at a hit.

@@ -56,8 +56,8 @@ INLINE void leaf_hits(const Geometry *g, uint child, uint count, Ray ray, Triang
       }
     }
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES))
-      for (uint met = block_shapes(g->blocks + i, slab, t_max); met != 0; met &= met - 1u)
-        shape_hits(g, g->blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE, ray, t_max, filter, list);
+      for (uint did_hit = block_shapes(g->blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u)
+        shape_hits(g, g->blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE, ray, t_max, filter, list);
   }
 }
 
@@ -77,8 +77,8 @@ OUTLINE void geometry_hits(const Geometry *g, Ray ray, real t_max, const HitFilt
   for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
     float8 enter, leave;
     node_intervals(nodes + index, slab, &enter, &leave);
-    int8 met = (enter <= leave) & (enter < (float)t_max);
-    uint left = lane_bits(met);
+    int8 did_hit = (enter <= leave) & (enter < (float)t_max);
+    uint left = lane_bits(did_hit);
     for (;;) {
       if (left) {
         uint slot = lowest_bit(left);

@@ -14,7 +14,7 @@
 
 // What is not a triangle: of shapes/shape.cl, or of a test.
 INLINE bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit);
-INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *faults);
+INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *diagnostics);
 
 // More node tests than any ray can need: only a device that computes wrongly gets there, and then it must not hang.
 #ifndef KD_STEP_LIMIT
@@ -135,8 +135,8 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, triangle, hit);
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
-      for (uint met = block_shapes(blocks + i, slab, hit->t); met != 0; met &= met - 1u) {
-        uint index = blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE;
+      for (uint did_hit = block_shapes(blocks + i, slab, hit->t); did_hit != 0; did_hit &= did_hit - 1u) {
+        uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
         found |= shape_closest(shapes + index, index, curves, ray, hit);
       }
     }
@@ -146,15 +146,15 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
 
 INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
                           uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, real t_max,
-                          uint *faults) {
+                          uint *diagnostics) {
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     real8 t, weight_1, weight_2;
     if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, triangle, t_max, &t, &weight_1, &weight_2)) return true;
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
-      for (uint met = block_shapes(blocks + i, slab, t_max); met != 0; met &= met - 1u) {
-        uint index = blocks[i].primitive[lowest_bit(met)] & ~BLOCK_SHAPE;
-        if (shape_occluded(shapes + index, curves, ray, t_max, faults)) return true;
+      for (uint did_hit = block_shapes(blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u) {
+        uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
+        if (shape_occluded(shapes + index, curves, ray, t_max, diagnostics)) return true;
       }
     }
   }
@@ -199,17 +199,17 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
     float8 enter, leave;
     node_intervals(node, slab, &enter, &leave);
     int8 key = (as_int8(enter + leave) & ~7) | lanes;
-    int8 met = (enter <= leave) & (enter < (float)hit->t);
+    int8 did_hit = (enter <= leave) & (enter < (float)hit->t);
     int keys[8];
     vstore8(key, 0, keys);
-    if (retest) met &= key > keys[slot];
+    if (retest) did_hit &= key > keys[slot];
     trail &= ~15ul;
     more &= ~1u;
-    uint left = lane_bits(met);
+    uint left = lane_bits(did_hit);
     bool descend = left != 0;
     if (descend) {
       uint rest = left & (left - 1u);
-      key = met ? key : INT_MAX;
+      key = did_hit ? key : INT_MAX;
       int nearest = min_lane_int(key);
       slot = (uint)nearest & 7u;
       uint second = (uint)min_lane_int(key == nearest ? INT_MAX : key) & 7u;
@@ -251,14 +251,14 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
       }
     }
   }
-  hit->faults |= FAULT_TRAVERSAL_BOUND;
+  hit->diagnostics |= DIAGNOSTIC_TRAVERSAL_BOUND;
   return found;
 }
 
 // Whether anything in the tree is met for 0 < t < t_max; adds to *faults. The order does not matter here, so the trail
 // holds the children left to visit, one bit each.
 INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                            global const float *curves, Ray ray, real t_max, uint *faults) {
+                            global const float *curves, Ray ray, real t_max, uint *diagnostics) {
   if (nodes->child[0] == 0) return false;
   TriangleRay triangle = triangle_ray(ray);
   SlabRay slab = slab_ray(ray, nodes);
@@ -267,8 +267,8 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
   for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
     float8 enter, leave;
     node_intervals(nodes + index, slab, &enter, &leave);
-    int8 met = (enter <= leave) & (enter < (float)t_max);
-    uint left = lane_bits(met);
+    int8 did_hit = (enter <= leave) & (enter < (float)t_max);
+    uint left = lane_bits(did_hit);
     for (;;) {
       if (left) {
         uint slot = lowest_bit(left);
@@ -281,7 +281,7 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
           break;
         }
         if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, triangle, slab, t_max,
-                          faults))
+                          diagnostics))
           return true;
       } else {
         if (index == 0) return false;
@@ -292,6 +292,6 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
       }
     }
   }
-  *faults |= FAULT_TRAVERSAL_BOUND;
+  *diagnostics |= DIAGNOSTIC_TRAVERSAL_BOUND;
   return true;
 }

@@ -11,6 +11,7 @@
 #include "traversal/kdtree.cl"
 #include "traversal/triangle_packet.cl"
 
+#if !defined(CAUSTICL_DOUBLE) && !defined(TRIANGLES_PRECOMPUTED)
 // Fewer rays that go the same way go alone.
 #define PACKET_LEAST 4u
 
@@ -20,7 +21,7 @@ typedef struct {
   float origin[3][PACKET_RAYS];
   float direction[3][PACKET_RAYS];
   float t[PACKET_RAYS], u[PACKET_RAYS], v[PACKET_RAYS];
-  uint primitive[PACKET_RAYS], faults[PACKET_RAYS];
+  uint primitive[PACKET_RAYS], diagnostics[PACKET_RAYS];
 } RayPacket;
 
 INLINE void packet_set(RayPacket *rays, uint i, Ray ray, Hit hit) {
@@ -28,7 +29,7 @@ INLINE void packet_set(RayPacket *rays, uint i, Ray ray, Hit hit) {
   rays->direction[0][i] = ray.direction.x, rays->direction[1][i] = ray.direction.y;
   rays->direction[2][i] = ray.direction.z;
   rays->t[i] = hit.t, rays->u[i] = hit.u, rays->v[i] = hit.v;
-  rays->primitive[i] = hit.primitive, rays->faults[i] = hit.faults;
+  rays->primitive[i] = hit.primitive, rays->diagnostics[i] = hit.diagnostics;
 }
 
 INLINE Ray packet_ray(const RayPacket *rays, uint i) {
@@ -38,7 +39,7 @@ INLINE Ray packet_ray(const RayPacket *rays, uint i) {
 }
 
 INLINE Hit packet_hit(const RayPacket *rays, uint i) {
-  Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], rays->faults[i]};
+  Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], rays->diagnostics[i]};
   return hit;
 }
 
@@ -118,7 +119,7 @@ INLINE void packet_intervals(global const KdNode *node, const PacketBounds *b, f
 }
 
 // The rays that meet a box before their hits. `planes` points to the lane of a node, or of a block with a shape.
-INLINE int16 packet_meets_box(global const float *planes, const PacketBounds *b, const PacketSlabs *s, float16 t) {
+INLINE int16 packet_hits_box(global const float *planes, const PacketBounds *b, const PacketSlabs *s, float16 t) {
   float16 near_x = fma((float16)planes[b->near_x], s->inverse_x, s->enter_x);
   float16 near_y = fma((float16)planes[b->near_y], s->inverse_y, s->enter_y);
   float16 near_z = fma((float16)planes[b->near_z], s->inverse_z, s->enter_z);
@@ -140,7 +141,7 @@ INLINE bool packet_leaf(global const TriangleBlock *blocks, uint child, uint cou
     if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
       int8 primitive = as_int8(*(global const uint8 *)blocks[i].primitive);
       for (uint left = lane_bits((primitive < 0) & (primitive != -1)); left != 0; left &= left - 1u) {
-        int16 near = packet_meets_box(blocks[i].position[0][0] + lowest_bit(left), b, s, hits->t);
+        int16 near = packet_hits_box(blocks[i].position[0][0] + lowest_bit(left), b, s, hits->t);
         hits->again |= packet_bits(near);
         hits->t = near ? (float16)-INFINITY : hits->t;
         changed = true;
@@ -150,7 +151,7 @@ INLINE bool packet_leaf(global const TriangleBlock *blocks, uint child, uint cou
   return changed;
 }
 
-INLINE void packet_walk(global const KdNode *nodes, global const TriangleBlock *blocks, const PacketBounds *b,
+INLINE void packet_traverse(global const KdNode *nodes, global const TriangleBlock *blocks, const PacketBounds *b,
                         const PacketSlabs *s, const PacketTriangleRays *triangle, PacketHits *hits) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   uint cells[7 * KD_LEVELS + 1];  // 8 * node + slot
@@ -160,10 +161,10 @@ INLINE void packet_walk(global const KdNode *nodes, global const TriangleBlock *
   for (;;) {
     float8 enter, leave;
     packet_intervals(nodes + index, b, &enter, &leave);
-    int8 met = (enter <= leave) & (enter < farthest);
+    int8 did_hit = (enter <= leave) & (enter < farthest);
     // The children met, the farthest first, so that the nearest is taken next. Rounded down, an entry stays a bound.
-    int8 key = met ? (as_int8(enter) & 0x7ffffff8) | lanes : -1;
-    for (uint left = lane_bits(met); left != 0; left &= left - 1u) {
+    int8 key = did_hit ? (as_int8(enter) & 0x7ffffff8) | lanes : -1;
+    for (uint left = lane_bits(did_hit); left != 0; left &= left - 1u) {
       int last = ~min_lane_int(~key);
       key = key == last ? -1 : key;
       cells[size] = index * 8u + ((uint)last & 7u);
@@ -181,7 +182,7 @@ INLINE void packet_walk(global const KdNode *nodes, global const TriangleBlock *
         index = child;
         break;
       }
-      if (packet_bits(packet_meets_box(node->bounds[0] + slot, b, s, hits->t)) == 0) continue;
+      if (packet_bits(packet_hits_box(node->bounds[0] + slot, b, s, hits->t)) == 0) continue;
       if (packet_leaf(blocks, child, node->block_count[slot], b, s, triangle, hits)) farthest = packet_max(hits->t);
     }
   }
@@ -222,7 +223,7 @@ INLINE uint packet_closest(global const KdNode *nodes, global const TriangleBloc
   PacketSlabs slabs = packet_slabs(nodes, ox, oy, oz, dx, dy, dz);
   PacketBounds bounds = packet_bounds(&slabs, (uint)own, ox, oy, oz);
   PacketTriangleRays triangle = packet_triangle_rays((uint)own / 8u, ox, oy, oz, dx, dy, dz);
-  packet_walk(nodes, blocks, &bounds, &slabs, &triangle, &hits);
+  packet_traverse(nodes, blocks, &bounds, &slabs, &triangle, &hits);
 
   *again |= hits.again & members;
   packet_store(&hits, member, rays->t, rays->u, rays->v, rays->primitive);
@@ -243,3 +244,4 @@ INLINE void kdtree_closest_packet(global const KdNode *nodes, global const Trian
     packet_set(rays, i, ray, hit);
   }
 }
+#endif

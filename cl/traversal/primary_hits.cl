@@ -1,14 +1,14 @@
-// Where camera paths begin: their rays and first hits, found by packets of neighbouring rays where the program is built
+// Where camera paths begin: their rays and primary hits, found by packets of neighbouring rays where the program is built
 // for that (CAMERA_PACKETS), which is for devices that gain by it. The paths are the same to the bit either way.
 #include "core/diagnostics.cl"
 #include "traversal/geometry.cl"
 #include "traversal/kdtree_packet.cl"
 
 // The ray with which path number `sample` of pixel (x, y) begins: of the pass.
-INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool even);
+INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool low_discrepancy);
 
 #ifdef CAMERA_PACKETS
-#define FIRST_HITS_FOUND true
+#define PRIMARY_HITS_FOUND true
 
 // Which paths a packet holds: `samples` paths of each pixel of a tile, or a part of the samples of one pixel.
 typedef struct {
@@ -23,11 +23,11 @@ INLINE PacketTile packet_tile(uint samples) {
 }
 
 // The ray of path number `sample` of a pixel, which meets nothing yet, in place i of the packet.
-INLINE void first_ray_put(const Params *params, uint x, uint y, uint sample, bool even, RayPacket *rays, uint i) {
-  packet_set(rays, i, path_ray(params, x, y, sample, even), hit_none(INFINITY));
+INLINE void first_ray_put(const Params *params, uint x, uint y, uint sample, bool low_discrepancy, RayPacket *rays, uint i) {
+  packet_set(rays, i, path_ray(params, x, y, sample, low_discrepancy), hit_none(INFINITY));
 }
 
-// The rays of a packet's paths. With even numbers the loop is vectorised; the strata of others ask for divisions of
+// The rays of a packet's paths. With low-discrepancy samples the loop is vectorised; the strata of others ask for divisions of
 // integers, for which there are no vector instructions.
 INLINE void first_rays(const Params *settings, const uint *x, const uint *y, const uint *samples, RayPacket *rays) {
   const Params params = *settings;
@@ -42,8 +42,8 @@ INLINE void first_rays(const Params *settings, const uint *x, const uint *y, con
 }
 
 // One packet of the tiles that hold pixels of the chunk, row by row: the chunk may begin and end within a row.
-OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint samples, uint index,
-                           global FirstHit *first_hits, volatile global Counters *counters) {
+OUTLINE void primary_hits_of(const Geometry *geometry, const Params *params, uint samples, uint index,
+                           global PrimaryHit *primary_hits, volatile global Counters *counters) {
   PacketTile tile = packet_tile(samples);
   uint across = (params->width + tile.width - 1u) / tile.width;
   uint part = index % tile.parts, place = index / tile.parts;
@@ -75,26 +75,26 @@ OUTLINE void first_hits_of(const Geometry *geometry, const Params *params, uint 
     uint i = lowest_bit(used);
     Ray ray = packet_ray(&rays, i);
     Hit hit = packet_hit(&rays, i);
-    count_faults(hit.faults, counters);
-    FirstHit found = {{ray.origin.x, ray.origin.y, ray.origin.z},
+    count_diagnostics(hit.diagnostics, counters);
+    PrimaryHit found = {{ray.origin.x, ray.origin.y, ray.origin.z},
                       {ray.direction.x, ray.direction.y, ray.direction.z},
                       hit.t, hit.u, hit.v, hit.primitive};
-    first_hits[paths[i]] = found;
+    primary_hits[paths[i]] = found;
   }
 }
 
 #else
-#define FIRST_HITS_FOUND false
+#define PRIMARY_HITS_FOUND false
 #endif
 
-INLINE Ray first_ray(global const FirstHit *first) {
+INLINE Ray first_ray(global const PrimaryHit *first) {
   Ray ray = {(real3)(first->origin[0], first->origin[1], first->origin[2]),
              (real3)(first->direction[0], first->direction[1], first->direction[2])};
   return ray;
 }
 
 // geometry_closest() along first_ray(), but that its faults have been counted.
-INLINE bool first_hit(global const FirstHit *first, Hit *hit) {
+INLINE bool primary_hit(global const PrimaryHit *first, Hit *hit) {
   hit->t = first->t, hit->u = first->u, hit->v = first->v;
   hit->primitive = first->primitive;
   return hit->primitive != HIT_NONE;

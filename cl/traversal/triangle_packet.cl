@@ -4,6 +4,7 @@
 // and so are the results to the bit. All rays have their largest component along the same axis.
 #include "shapes/triangle.cl"
 
+#if !defined(CAUSTICL_DOUBLE) && !defined(TRIANGLES_PRECOMPUTED)
 #define PACKET_RAYS 16u
 
 INLINE uint packet_bits(int16 m) { return lane_bits(m.lo) | lane_bits(m.hi) << 8; }
@@ -96,14 +97,14 @@ INLINE float16 packet_signed_difference(float16 a, float16 b, float16 c, float16
 // Takes `primitive` into the hits of the rays that meet it: at `t`, which is no farther than what they have. A ray that has
 // met something else at the same distance must be traced on its own, since the first that it comes to is to count;
 // `triangle`, which may have come before, from another cell, is that of the scene, HIT_NONE for a shape.
-INLINE void packet_take(int16 met, float16 t, float16 u, float16 v, uint primitive, uint triangle, PacketHits *hits) {
+INLINE void packet_take(int16 did_hit, float16 t, float16 u, float16 v, uint primitive, uint triangle, PacketHits *hits) {
   int16 other = triangle == HIT_NONE ? (int16)-1 : hits->triangle != triangle;
-  hits->again |= packet_bits(met & (t == hits->t) & other);
-  hits->t = met ? t : hits->t;
-  hits->u = met ? u : hits->u;
-  hits->v = met ? v : hits->v;
-  hits->primitive = met ? (uint16)primitive : hits->primitive;
-  hits->triangle = met ? (uint16)triangle : hits->triangle;
+  hits->again |= packet_bits(did_hit & (t == hits->t) & other);
+  hits->t = did_hit ? t : hits->t;
+  hits->u = did_hit ? u : hits->u;
+  hits->v = did_hit ? v : hits->v;
+  hits->primitive = did_hit ? (uint16)primitive : hits->primitive;
+  hits->triangle = did_hit ? (uint16)triangle : hits->triangle;
 }
 
 // Stores the hits of the rays in `stays` for which none must be traced again; the arrays keep what they hold of others.
@@ -122,7 +123,7 @@ typedef struct {
 } PacketCorners;
 
 // Where rays meet a triangle no farther than `t_max`, and the weights of vertices 1 and 2 there.
-INLINE int16 packet_meets(const PacketCorners *p, float16 scale_z, float16 t_max, float16 *t, float16 *weight_1,
+INLINE int16 packet_hits(const PacketCorners *p, float16 scale_z, float16 t_max, float16 *t, float16 *weight_1,
                           float16 *weight_2) {
   float16 u = packet_signed_difference(p->cx, p->by, p->cy, p->bx);
   float16 v = packet_signed_difference(p->ax, p->cy, p->ay, p->cx);
@@ -158,8 +159,9 @@ INLINE bool packet_intersect(global const TriangleBlock *blocks, uint index, uin
   float16 low = min(min(u, v), w), high = max(max(u, v), w);
   if (packet_bits((low >= 0) | (high <= 0)) == 0) return false;
   float16 t, weight_1, weight_2;
-  int16 met = packet_meets(&corners, p->scale_z, hits->t, &t, &weight_1, &weight_2);
-  if (packet_bits(met) == 0) return false;
-  packet_take(met, t, weight_1, weight_2, index * 8u + lane, block->primitive[lane], hits);
+  int16 did_hit = packet_hits(&corners, p->scale_z, hits->t, &t, &weight_1, &weight_2);
+  if (packet_bits(did_hit) == 0) return false;
+  packet_take(did_hit, t, weight_1, weight_2, index * 8u + lane, block->primitive[lane], hits);
   return true;
 }
+#endif

@@ -12,7 +12,7 @@ namespace {
 constexpr double dark = 0.1;  // pixels below this share of the mean luminance are judged against it
 
 struct RelativeError {
-  double drawn, noise, bias;
+  double half_difference, noise, bias;
 };
 
 /// Of every `stride`-th pixel.
@@ -25,7 +25,7 @@ std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels
   errors.reserve(pixels.size() / stride + 1);
   for (std::size_t i = 0; i < pixels.size(); i += stride) {
     const double scale = std::max<double>(pixels[i].luminance, dark * mean);
-    errors.push_back({pixels[i].drawn / scale, pixels[i].noise / scale, pixels[i].bias / scale});
+    errors.push_back({pixels[i].half_difference / scale, pixels[i].noise / scale, pixels[i].bias / scale});
   }
   return errors;
 }
@@ -37,8 +37,9 @@ double drawn_bound(const std::vector<RelativeError>& errors, double share, doubl
   sizes.reserve(2 * errors.size());
   for (const auto& error : errors)
     for (const double sign : {-1, 1})
-      sizes.push_back(std::isfinite(error.bias) ? std::fabs(noise * error.drawn + sign * bias * error.bias)
-                                                : INFINITY);
+      sizes.push_back(std::isfinite(error.bias)
+                          ? std::fabs(noise * error.half_difference + sign * bias * error.bias)
+                          : INFINITY);
   const auto rank =
       std::min(static_cast<std::size_t>(share * static_cast<double>(sizes.size())), sizes.size() - 1);
   const auto bound = sizes.begin() + static_cast<std::ptrdiff_t>(rank);

@@ -29,7 +29,7 @@ struct PixelErrorKind {
 constexpr PixelErrorKind pixel_error_kinds[] = {{"error.noise", &PixelError::noise},
                                                 {"error.pooled_noise", &PixelError::pooled_noise},
                                                 {"error.bias", &PixelError::bias},
-                                                {"error.drawn", &PixelError::drawn}};
+                                                {"error.drawn", &PixelError::half_difference}};
 
 /// What a pixel's error is below with probability `confidence`, in luminance, if its pooled noise is
 /// distributed normally about its bias.

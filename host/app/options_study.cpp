@@ -15,11 +15,15 @@ void add_study_options(CLI::App& app, Options& options) {
       ->transform(duration())
       ->type_name("TIME");
   std::string names;
-  for (const Knob& knob : study_knobs()) names += (names.empty() ? "" : ", ") + std::string(knob.name);
-  app.add_option("--knobs", study.knobs, "only these, with commas between them:\n" + wrapped(names, 52))
+  for (const StudyParameter& parameter : study_parameters())
+    names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+  app.add_option("--parameters", study.parameters,
+                 "only these, with commas between them:\n" + wrapped(names, 52))
       ->delimiter(',')
       ->type_name("LIST")
       ->allow_extra_args(false);
+  // As it was called up to version 0.1.
+  app.add_option("--knobs", study.parameters)->delimiter(',')->allow_extra_args(false)->group("");
   app.add_option("--seeds", study.seeds, "renders of each setting, as far as there is time; default: 3")
       ->check(whole_number(2, 16))
       ->type_name("N");

@@ -205,7 +205,8 @@ void ProgressReport::finish(const std::vector<std::string>& files, const Statist
     print_message(stream_, line);
     if (error.unknown > 0) print_message(stream_, "note: " + unknown_text(error.unknown));
   }
-  for (const auto& warning : fault_warnings(statistics.faults)) print_message(stream_, "warning: " + warning);
+  for (const auto& warning : diagnostic_warnings(statistics.diagnostics))
+    print_message(stream_, "warning: " + warning);
 }
 
 }  // namespace causticl

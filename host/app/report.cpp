@@ -99,7 +99,7 @@ std::string statistics_table(const Statistics& s) {
   append(text, "  %-28s %.3f s\n", "  to the first pass", s.first_pass_seconds);
   append(text, "  %-28s %.3f s\n", "  until it was done", s.first_pass_done_seconds);
   append(text, "  %-28s %.3f s, %llu of %zu programs kept from an earlier run\n", "  building kernels",
-         s.kernel_build_seconds, Number(s.kept_programs), built_programs(s));
+         s.kernel_build_seconds, Number(s.cached_programs), built_programs(s));
   append(text, "  %-28s %.3f s\n", "  building the tree", s.tree_build_seconds);
   append(text, "  %-28s %llu triangles, %llu other shapes, %llu emitters\n", "scene", Number(s.triangles),
          Number(s.shapes), Number(s.emitters));
@@ -111,7 +111,7 @@ std::string statistics_table(const Statistics& s) {
     append(text, "  %-28s %s\n", "  photon rays", s.photon_rays.c_str());
     append(text, "  %-28s %llu\n", "  stored in the last pass", Number(s.stored_photons));
     if (s.seeds)
-      append(text, "  %-28s %.2g%% of the scouts land where the camera sees; %s\n", "  guided",
+      append(text, "  %-28s %.2g%% of the pilot paths land where the camera sees; %s\n", "  guided",
              100 * s.seeds->share,
              s.seeds->copies      ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
              : s.seeds->share > 0 ? "too many to copy: most passes are as without"
@@ -124,7 +124,8 @@ std::string statistics_table(const Statistics& s) {
   append(text, "  %-28s %s\n", "peak memory of the process",
          byte_size(static_cast<double>(s.peak_memory_bytes)).c_str());
   append(text, "  %-28s", "faults");
-  for (const auto& kind : fault_kinds) append(text, " %s %llu", kind.key, Number(s.faults.*kind.count));
+  for (const auto& kind : diagnostic_kinds)
+    append(text, " %s %llu", kind.key, Number(s.diagnostics.*kind.count));
   text += "\n\n" + pass_table(s.pass_programs) + "\n" + kernel_table(s.kernels);
 
   if (s.skipped_triangles)
@@ -157,7 +158,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"first_pass_seconds", s.first_pass_seconds},
                                    {"first_pass_done_seconds", s.first_pass_done_seconds},
                                    {"kernel_build_seconds", s.kernel_build_seconds},
-                                   {"kept_programs", s.kept_programs},
+                                   {"kept_programs", s.cached_programs},
                                    {"pass_seconds", s.pass_seconds},
                                    {"error_seconds", s.error_seconds},
                                    {"tree_build_seconds", s.tree_build_seconds},
@@ -189,7 +190,7 @@ std::string statistics_json(const Statistics& s) {
     object["error_unknown"] = s.error->unknown;
     if (s.passes_to_half_error) object["passes_to_half_error"] = *s.passes_to_half_error;
   }
-  for (const auto& kind : fault_kinds) object[kind.key] = s.faults.*kind.count;
+  for (const auto& kind : diagnostic_kinds) object[kind.key] = s.diagnostics.*kind.count;
   // A device may name itself in any encoding: what is not UTF-8 is replaced rather than thrown at.
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

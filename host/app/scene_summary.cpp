@@ -91,8 +91,10 @@ void print_integrator(std::ostream& text, const Scene& scene) {
       text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
            << r.alpha;
     if (!r.boundary_correction) text << ", no boundary correction";
-    if (r.guided_photons) text << (*r.guided_photons ? ", guided photons" : ", photons without guidance");
-    if (r.aimed_photons) text << (*r.aimed_photons ? ", aimed photons" : ", photons without aim");
+    if (r.guided_photons)
+      text << (*r.guided_photons ? ", Metropolis photons" : ", without Metropolis photons");
+    if (r.aimed_photons)
+      text << (*r.aimed_photons ? ", photons by the projection map" : ", photons without a projection map");
     text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
   }
   if (r.sampler == Sampler::independent) text << ", independent numbers";

@@ -163,10 +163,10 @@ OpenFolder open_trusted_folder(const fs::path& folder, FolderUse use) {
   std::error_code error;
   const fs::path absolute = fs::absolute(folder, error);
   if (folder.empty() || error) fail(folder, "is no folder that can be found from here");
-  Walk walk(absolute);
-  while (!walk.done()) walk.step();
-  OpenFolder result{Descriptor(openat(walk.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
-                    walk.path()};
+  Walk traverse(absolute);
+  while (!traverse.done()) traverse.step();
+  OpenFolder result{Descriptor(openat(traverse.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
+                    traverse.path()};
   struct stat status {};
   if (!result.descriptor || fstat(result.descriptor.get(), &status) != 0)
     fail(result.path, std::string("cannot be opened: ") + std::strerror(errno));

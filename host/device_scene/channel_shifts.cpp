@@ -75,8 +75,8 @@ std::vector<std::string> coarse_channel_notices(const Scene& scene) {
     for (std::size_t c = 0; c < 3; ++c) {
       // A unit of the record is 1/4096: below a sixteenth of it, dithering adds more noise than sixteen times
       // as many photons take away.
-      const double carried = std::ldexp(lamp.shares[c], shifts[c]);
-      if (lamp.shares[c] > 0 && carried < 1.0 / 65536)
+      const double throughput = std::ldexp(lamp.shares[c], shifts[c]);
+      if (lamp.shares[c] > 0 && throughput < 1.0 / 65536)
         notices.push_back(
             std::string("the ") + names[c] + " of " + lamp.pointer +
             " is so weak beside its other channels that photons show it as noise where no other "

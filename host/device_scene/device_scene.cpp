@@ -123,8 +123,8 @@ void upload_into(cl::Buffer& buffer, Device& device, const std::vector<T>& data,
 
 }  // namespace
 
-void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out) {
-  const World world = build_world(scene, time, out.dielectrics);
+void place_flat_scene(const Scene& scene, double time, Device& device, DeviceScene& out) {
+  const FlatScene world = flatten_scene(scene, time, out.dielectrics);
   KdTree tree = build_kdtree(world.tree, out.threads);
   if (out.triangle_test == TriangleTest::precomputed) add_triangle_transforms(tree, out.threads);
   upload_into(out.nodes, device, tree.nodes, "tree nodes");
@@ -155,12 +155,13 @@ void place_scene(const Scene& scene, double time, Device& device, DeviceScene& o
   out.tree_build_seconds += tree.build_seconds;
 }
 
-DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads, TriangleTest triangle_test) {
+DeviceScene update_device_scene(const Scene& scene, Device& device, unsigned threads,
+                                TriangleTest triangle_test) {
   DeviceScene out;
   out.threads = threads;
   out.triangle_test = triangle_test;
   out.dielectrics = find_dielectrics(scene);
-  place_scene(scene, scene.camera.shutter[0], device, out);
+  place_flat_scene(scene, scene.camera.shutter[0], device, out);
   std::vector<Material> materials;
   for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
   // Behind those of the scene one for each body, in the order in which they fill what several hold.

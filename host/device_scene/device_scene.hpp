@@ -34,12 +34,12 @@ inline double length_scale(const DeviceScene& scene) { return std::max(scene.ext
 
 /// Uploads everything as it is when the shutter opens, with a tree built by `threads` threads (0: all cores),
 /// for kernels with `triangle_test`.
-DeviceScene upload_scene(const Scene& scene, Device& device, unsigned threads = 0,
-                         TriangleTest triangle_test = TriangleTest::watertight);
+DeviceScene update_device_scene(const Scene& scene, Device& device, unsigned threads = 0,
+                                TriangleTest triangle_test = TriangleTest::watertight);
 
 /// Puts what moves to where it is at `time`: builds shapes, emitters and tree anew and uploads them, into the
 /// same buffers as long as they fit.
-void place_scene(const Scene& scene, double time, Device& device, DeviceScene& out);
+void place_flat_scene(const Scene& scene, double time, Device& device, DeviceScene& out);
 
 /// The thin lens of the scene's camera.
 Camera device_camera(const CameraSpec& camera);

@@ -2,10 +2,11 @@
 
 namespace causticl {
 
-std::vector<std::string> fault_warnings(const Faults& faults) {
+std::vector<std::string> diagnostic_warnings(const Diagnostics& diagnostics) {
   std::vector<std::string> warnings;
-  for (const auto& kind : fault_kinds)
-    if (faults.*kind.count) warnings.push_back(std::to_string(faults.*kind.count) + " " + kind.meaning);
+  for (const auto& kind : diagnostic_kinds)
+    if (diagnostics.*kind.count)
+      warnings.push_back(std::to_string(diagnostics.*kind.count) + " " + kind.meaning);
   return warnings;
 }
 

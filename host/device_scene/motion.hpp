@@ -21,7 +21,7 @@ class Motion {
 
   /// Waits for what is enqueued, where something moves. Buffers may change: kernels take them anew.
   void begin_pass(std::uint32_t pass) {
-    if (moves_) place_scene(scene_, pass_time(scene_.camera, seed_, pass), device_, device_scene_);
+    if (moves_) place_flat_scene(scene_, pass_time(scene_.camera, seed_, pass), device_, device_scene_);
   }
 
  private:

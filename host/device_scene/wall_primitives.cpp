@@ -140,7 +140,7 @@ std::vector<Vec3> clipped(const WallPrimitive& triangle, const WallBox& box) {
 
 }  // namespace
 
-std::vector<WallPrimitive> wall_primitives(const Scene& scene, const World& world, double time) {
+std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, double time) {
   std::vector<WallPrimitive> primitives;
   primitives.reserve(world.tree.triangles.size() + world.shapes.size());
   for (std::size_t i = 0; i < world.tree.triangles.size(); ++i) {

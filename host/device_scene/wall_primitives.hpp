@@ -22,7 +22,7 @@ struct WallPrimitive {
 };
 
 /// All surfaces but the infinitesimal ones. Revolved curves become triangles, glass parts nothing.
-std::vector<WallPrimitive> wall_primitives(const Scene& scene, const World& world, double time);
+std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, double time);
 
 /// Whether the primitive may come within `reach` of the box: true too where it is a little farther.
 bool may_reach(const WallPrimitive& primitive, const WallBox& box, double reach);

@@ -211,7 +211,7 @@ class WallGridBuilder {
 
 std::vector<std::byte> no_walls() { return std::vector<std::byte>(sizeof(WallGrid)); }
 
-std::vector<std::byte> wall_grid(const Scene& scene, const World& world, double time, double radius) {
+std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, double time, double radius) {
   return WallGridBuilder(wall_primitives(scene, world, time), radius).build();
 }
 

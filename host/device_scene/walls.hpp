@@ -14,7 +14,7 @@ namespace causticl {
 /// `radius` about visible points of the scene at `time`. A cell lists the surfaces near it if one of them has
 /// surface on both sides that may hold photons of one normal. Where there is none, nothing parts photons from
 /// a visible point.
-std::vector<std::byte> wall_grid(const Scene& scene, const World& world, double time, double radius);
+std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, double time, double radius);
 
 /// The grid of a scene without walls.
 std::vector<std::byte> no_walls();

@@ -113,9 +113,9 @@ std::string smooth_reason(const Scene& scene) {
       [](const Object& object) { return "normals of mesh " + object.pointer; });
 }
 
-std::string needles_reason(const Scene& scene) {
+std::string slivers_reason(const Scene& scene) {
   return first_object(
-      scene, [&](const Object& object) { return has_needles(scene, object); },
+      scene, [&](const Object& object) { return has_slivers(scene, object); },
       [](const Object& object) {
         return "triangles of " + std::string(shape_name(object.shape)) + " " + object.pointer;
       });
@@ -160,7 +160,7 @@ Effects find_effects(const Scene& scene) {
       {EFFECT_AIMED_PHOTONS, "aimed_photons", "photons aimed at what focuses them",
        aimed_photons_reason(scene)},
       {EFFECT_SMOOTH, "smooth", "shading normals", smooth_reason(scene)},
-      {EFFECT_NEEDLES, "needles", "thin triangles", needles_reason(scene)},
+      {EFFECT_SLIVERS, "needles", "thin triangles", slivers_reason(scene)},
       {EFFECT_NESTED, "nested", "dielectrics that touch or hold something", find_dielectrics(scene).reason},
       {EFFECT_WALLS, "walls", "walls between photons and visible points", walls_reason(scene)},
       {EFFECT_HORIZON, "horizon", "light from beyond the scene on infinite planes", horizon_reason(scene)},

@@ -125,16 +125,16 @@ bool may_part(const Scene& scene, const Object& wall) {
   const MaterialSpec& material = material_of(scene, wall);
   if (material.kind == MaterialSpec::Kind::glass && !material.alpha_diffuse) return false;
   const bool moves = has_motion(scene);
-  int met = 0;
+  int did_hit = 0;
   const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier;
   for (const Object& other : scene.objects) {
     if (!stores_photons(material_of(scene, other)) || (is_flat(wall) && &other == &wall)) continue;
     if (is_flat(wall) && !moves)
-      met |= sides(wall, scene, other);
+      did_hit |= sides(wall, scene, other);
     else if (&other == &wall ? several : moves || are_near(scene, wall, other))
       return true;
   }
-  return met == 3;
+  return did_hit == 3;
 }
 
 }  // namespace

@@ -46,11 +46,11 @@ void json_override(JsonDocument& document, const std::string& key, const std::st
   const auto fail = [&](const std::string& why) { throw UserError(one_line(option + ": " + why)); };
 
   JsonValue* target = &document.root;
-  std::string walked;
+  std::string traversed;
   for (const std::string& part : split_at_dots(key)) {
     if (part.empty()) fail("expected keys joined by dots before '=', got " + json_quote(key));
-    const std::string parent = walked.empty() ? "the scene" : json_quote(walked);
-    walked += (walked.empty() ? "" : ".") + part;
+    const std::string parent = traversed.empty() ? "the scene" : json_quote(traversed);
+    traversed += (traversed.empty() ? "" : ".") + part;
     if (target->kind == JsonValue::Kind::array) {
       std::size_t index = 0;
       const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);

@@ -30,7 +30,7 @@ Film::Film(Device& device, Programs& programs, int width, int height, bool even)
   device_.clear(pixels_, pixels() * bytes_per_pixel());
 }
 
-bool Film::has_layers() const { return (programs_.options().effects & OUTPUT_LAYERS) != 0; }
+bool Film::has_layers() const { return (programs_.options().effects & OUTPUT_LIGHT_PASSES) != 0; }
 
 void Film::take_pixels(Film& from, std::size_t first, std::size_t count) {
   const auto take = [&](std::size_t begin, std::size_t bytes) {
@@ -40,7 +40,7 @@ void Film::take_pixels(Film& from, std::size_t first, std::size_t count) {
   };
   take(first * sizeof(FilmPixel), count * sizeof(FilmPixel));
   if (has_layers())
-    take(pixels() * sizeof(FilmPixel) + first * sizeof(FilmLayers), count * sizeof(FilmLayers));
+    take(pixels() * sizeof(FilmPixel) + first * sizeof(FilmLightPasses), count * sizeof(FilmLightPasses));
 }
 
 Picture Film::picture(std::uint64_t passes) {
@@ -73,7 +73,7 @@ std::vector<Channel> layer_channels(std::size_t pixels) {
 std::vector<Channel> Film::layers(std::uint64_t passes) {
   if (complete_) complete_();
   const auto sums = device_.download<FilmPixel>(pixels_, pixels());
-  const auto layers = device_.download<FilmLayers>(pixels_, pixels(), pixels() * sizeof(FilmPixel));
+  const auto layers = device_.download<FilmLightPasses>(pixels_, pixels(), pixels() * sizeof(FilmPixel));
   auto channels = layer_channels(pixels());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double scale = scale_of(sums[i], passes);

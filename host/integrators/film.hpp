@@ -29,7 +29,9 @@ class Film {
   void complete_by(std::function<void()> complete) { complete_ = std::move(complete); }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * height_; }
   bool has_layers() const;
-  std::size_t bytes_per_pixel() const { return sizeof(FilmPixel) + (has_layers() ? sizeof(FilmLayers) : 0); }
+  std::size_t bytes_per_pixel() const {
+    return sizeof(FilmPixel) + (has_layers() ? sizeof(FilmLightPasses) : 0);
+  }
 
   /// The mean of `passes` estimates a pixel, of those that were finite. Waits for the queue.
   Picture picture(std::uint64_t passes);

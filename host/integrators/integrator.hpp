@@ -9,7 +9,7 @@
 
 #include "device_scene/diagnostics.hpp"
 #include "image/image.hpp"
-#include "photons/seed_statistics.hpp"
+#include "photons/metropolis_statistics.hpp"
 #include "shared/types.h"
 
 namespace causticl {
@@ -49,8 +49,8 @@ class PassIntegrator {
   /// Waits for all passes enqueued so far and returns the device's counters, each summed without wrapping.
   struct Totals {
     std::uint64_t photons_emitted = 0, photons_stored_last_pass = 0, rays = 0;
-    Faults faults;
-    std::optional<SeedStatistics> seeds;
+    Diagnostics diagnostics;
+    std::optional<MetropolisStatistics> seeds;
   };
   virtual Totals finish() = 0;
 
@@ -80,16 +80,16 @@ class CounterTotals {
   /// any number.
   void update(const Counters& now) {
     rays += rays_of(now) - rays_of(last_);
-    faults.non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
-    faults.saturated += static_cast<uint>(now.saturated - last_.saturated);
-    faults.unresolved += static_cast<uint>(now.unresolved - last_.unresolved);
-    faults.traversal_bound += static_cast<uint>(now.traversal_bound - last_.traversal_bound);
-    faults.media_full += static_cast<uint>(now.media_full - last_.media_full);
-    faults.media_left += static_cast<uint>(now.media_left - last_.media_left);
+    diagnostics.non_finite += static_cast<uint>(now.non_finite - last_.non_finite);
+    diagnostics.saturated += static_cast<uint>(now.saturated - last_.saturated);
+    diagnostics.unresolved += static_cast<uint>(now.unresolved - last_.unresolved);
+    diagnostics.traversal_bound += static_cast<uint>(now.traversal_bound - last_.traversal_bound);
+    diagnostics.media_full += static_cast<uint>(now.media_full - last_.media_full);
+    diagnostics.media_left += static_cast<uint>(now.media_left - last_.media_left);
     last_ = now;
   }
   std::uint64_t rays = 0;
-  Faults faults;
+  Diagnostics diagnostics;
 
  private:
   Counters last_{};

@@ -29,9 +29,9 @@ class PathTracer : public PassIntegrator {
   cl_uint first_argument_;
   cl::Buffer counters_;
   std::size_t chunk_;
-  std::size_t first_hit_bytes_;
-  cl::Buffer first_hit_buffer_;
-  FirstHits first_hits_;
+  std::size_t primary_hit_bytes_;
+  cl::Buffer primary_hit_buffer_;
+  PrimaryHits primary_hits_;
   CounterTotals totals_;
 };
 

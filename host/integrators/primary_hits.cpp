@@ -33,20 +33,20 @@ bool packets_chosen(CameraRays wanted, const Device& device, const KernelOptions
 }
 
 std::string camera_rays_text(const KernelOptions& options) {
-  return options.camera_packets ? "in packets of " + std::to_string(packet_rays) : "one by one";
+  return options.camera_packets ? "in packets of " + std::to_string(packet_rays) : "one at a time";
 }
 
-FirstHits::FirstHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
-                     const cl::Buffer& counters)
+PrimaryHits::PrimaryHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
+                         const cl::Buffer& counters)
     : by_packets_(programs.options().camera_packets) {
   if (!by_packets_) return;
-  kernel_ = programs.kernel(pass, "first_hits");
+  kernel_ = programs.kernel(pass, "primary_hits");
   first_argument_ = set_scene_arguments(kernel_, device_scene);
   kernel_.setArg(first_argument_ + 1, counters);
 }
 
-void FirstHits::launch(Device& device, const DeviceScene& device_scene, const cl::Buffer& hits,
-                       const Params& params, uint samples) {
+void PrimaryHits::launch(Device& device, const DeviceScene& device_scene, const cl::Buffer& hits,
+                         const Params& params, uint samples) {
   if (!by_packets_ || params.pixel_count == 0) return;
   set_scene_arguments(kernel_, device_scene);  // its buffers may be new where things move
   const uint packets = packet_count(params, samples);

@@ -1,4 +1,5 @@
-// The first hits of camera paths, found by packets of neighbouring rays before the paths go on one by one.
+// The primary hits of camera paths, found by packets of neighbouring rays before the paths go on one at a
+// time.
 #pragma once
 
 #include <string>
@@ -17,16 +18,16 @@ enum class CameraRays { automatic, single, packets };
 /// double precision and by the precomputed test.
 bool packets_chosen(CameraRays wanted, const Device& device, const KernelOptions& options);
 
-/// What --stats says of it: "in packets of 16", "one by one".
+/// What --stats says of it: "in packets of 16", "one at a time".
 std::string camera_rays_text(const KernelOptions& options);
 
 /// Does nothing where the programs are built for single rays.
-class FirstHits {
+class PrimaryHits {
  public:
-  FirstHits() = default;
-  /// The kernel of `pass`. Faults go to `counters`.
-  FirstHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
-            const cl::Buffer& counters);
+  PrimaryHits() = default;
+  /// The kernel of `pass`. Diagnostics go to `counters`.
+  PrimaryHits(Programs& programs, const std::string& pass, const DeviceScene& device_scene,
+              const cl::Buffer& counters);
 
   /// Finds those of the chunk that `params` tells, which has `samples` paths a pixel, and puts them into
   /// `hits`.

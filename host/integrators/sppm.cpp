@@ -13,8 +13,8 @@
 namespace causticl {
 namespace {
 
-// The first hits of camera paths lie where their visible points will.
-static_assert(sizeof(FirstHit) == sizeof(VisiblePoint));
+// The primary hits of camera paths lie where their visible points will.
+static_assert(sizeof(PrimaryHit) == sizeof(VisiblePoint));
 
 /// Of the scene's half extent: the length of the pieces of camera rays in the medium around which photons are
 /// gathered. Longer ones find more photons, in a time that grows with them: of 0.05, 0.3 and 1 this one has
@@ -42,7 +42,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
       photon_map_(device_scene, device, programs, counters_, guide_, aim_),
       with_photons_(with_photons && params_.emitter_count > 0),
       walled_(with_photons_ && (effect_bits(find_effects(scene)) & EFFECT_WALLS)),
-      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLayers) : 0) +
+      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLightPasses) : 0) +
                             ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
                            record_scale(programs.options().precision)),
       unknown_(device, programs) {
@@ -63,7 +63,7 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
   trace_camera_ = programs.kernel("camera", "trace_camera");
   gather_photons_ = programs.kernel("gather", "gather_photons");
-  first_hits_ = FirstHits(programs, "camera", device_scene, counters_);
+  primary_hits_ = PrimaryHits(programs, "camera", device_scene, counters_);
   first_argument_ = set_scene_arguments(trace_camera_, device_scene);
   trace_camera_.setArg(first_argument_ + 1, counters_);
   trace_camera_.setArg(first_argument_ + 3, pixels_);
@@ -86,15 +86,15 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
 }
 
 /// Places what moves for the pass and traces its photons, unless that has been done; before the first also
-/// the scouts by which photons are aimed.
+/// the pilot paths by which photons are aimed.
 void Sppm::start_pass(std::uint32_t pass) {
   if (started_pass_ == pass) return;
   begin_pass(params_, pass);
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
-  if (pass == 0 && aim_.scouts() > 0) {
-    photon_map_.take_aim(params_);
-    totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // scouts are no part of the pass
+  if (pass == 0 && aim_.pilot_paths() > 0) {
+    photon_map_.learn_projection_map(params_);
+    totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // pilot paths are no part of the pass
   }
   trace_photons(pass);
   started_pass_ = pass;
@@ -129,7 +129,7 @@ float Sppm::segment(double radius) const {
 
 /// Those of the chunk that `params` tells.
 void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) {
-  first_hits_.launch(device_, device_scene_, points, params, params.visible_points);
+  primary_hits_.launch(device_, device_scene_, points, params, params.visible_points);
   trace_camera_.setArg(first_argument_, points);
   trace_camera_.setArg(first_argument_ + 2, params);
   device_.launch_pass(trace_camera_, static_cast<std::size_t>(params.pixel_count) * params.visible_points);
@@ -143,7 +143,7 @@ void Sppm::place_walls(std::uint32_t pass) {
   const double time =
       has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
   const double widest = pilot_.first_radius * std::max(1.0, indirect_radius(spec_));
-  walls_ = device_.upload(wall_grid(scene_, build_world(scene_, time), time, widest), "walls");
+  walls_ = device_.upload(wall_grid(scene_, flatten_scene(scene_, time), time, widest), "walls");
   trace_camera_.setArg(first_argument_ + 4, walls_);
 }
 
@@ -189,9 +189,9 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
 
 PassIntegrator::Totals Sppm::finish() {
   totals_.update(device_.download<Counters>(counters_, 1)[0]);
-  Faults faults = totals_.faults;
-  faults.dropped = photon_map_.dropped();
-  return {emitted_, photon_map_.stored(), totals_.rays, faults, guide_.seeds()};
+  Diagnostics diagnostics = totals_.diagnostics;
+  diagnostics.dropped = photon_map_.dropped();
+  return {emitted_, photon_map_.stored(), totals_.rays, diagnostics, guide_.seeds()};
 }
 
 std::vector<Channel> Sppm::channels() {

@@ -47,8 +47,8 @@ class Sppm : public PassIntegrator {
   Motion motion_;
   Params params_;
   cl::Buffer counters_;
-  PhotonGuide guide_;
-  PhotonAim aim_;
+  MetropolisPhotons guide_;
+  ProjectionMap aim_;
   PhotonMap photon_map_;
   bool with_photons_;
   bool walled_;                                // whether the scene calls for walls
@@ -59,7 +59,7 @@ class Sppm : public PassIntegrator {
   bool walls_placed_ = false;
   std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer own_visible_points_, pixels_;
-  FirstHits first_hits_;
+  PrimaryHits primary_hits_;
   CounterTotals totals_;
   std::uint64_t emitted_ = 0;
   Pilot pilot_;

@@ -20,19 +20,19 @@ constexpr double worth_guiding = 1.0 / 16, worthwhile_gain = 2;
 // With fewer photons a pass than this, learning where they should start would take longer than the render.
 constexpr std::int64_t fewest_photons = 1 << 14;
 
-// The map is learned in steps, each by scouts that start by the last one, until so many are of use.
-constexpr std::uint32_t scouts = 1 << 15;
+// The map is learned in steps, each by pilot paths that start by the last one, until so many are of use.
+constexpr std::uint32_t pilot_paths = 1 << 15;
 constexpr int most_steps = 6;
 constexpr double useful_enough = 0.4;
 constexpr std::uint32_t beyond_passes = 0xffffff00;  // random numbers of their own
-// Where so few are of use, more batches of scouts are traced, but no more than this.
+// Where so few are of use, more batches of pilot paths are traced, but no more than this.
 constexpr std::size_t fewest_useful = 64;
 constexpr std::uint32_t most_batches = 8;
 
 // Cells around points in view, by which the use of photons is told, are as wide as this share of the room:
 // about as far as the points of the coarse picture lie apart.
-constexpr double marked_share = 1.0 / 24;
-constexpr uint marked_across = 128;  // cells: five times the room
+constexpr double visible_cell_fraction = 1.0 / 24;
+constexpr uint visible_cells_across = 128;  // cells: five times the room
 
 /// Which share of the photons that start by a map are of use.
 struct Useful {
@@ -145,29 +145,32 @@ void Sppm::choose_first_radius(const cl::Buffer& points, Params params, Pilot& p
 
 /// Decides by which map photons start, if by any, and lets them.
 void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot& pilot) {
-  const double cell = marked_share * pilot.around.room;
+  const double cell = visible_cell_fraction * pilot.around.room;
   const auto low = [&](int axis) {  // what is seen lies in the middle
-    return static_cast<float>(0.5 *
-                              (pilot.around.low[axis] + pilot.around.high[axis] - marked_across * cell));
+    return static_cast<float>(
+        0.5 * (pilot.around.low[axis] + pilot.around.high[axis] - visible_cells_across * cell));
   };
-  const Grid cells{
-      {low(0), low(1), low(2), static_cast<float>(1 / cell)}, marked_across, marked_across, marked_across, 0};
+  const Grid cells{{low(0), low(1), low(2), static_cast<float>(1 / cell)},
+                   visible_cells_across,
+                   visible_cells_across,
+                   visible_cells_across,
+                   0};
   const std::size_t bytes = (buckets_of(cells) + 3) / 4 * sizeof(cl_uint);
   if (bytes > device_.info().largest_allocation) return;  // a device this small renders without a map
-  const cl::Buffer marks = device_.buffer(bytes, "marked cells");
-  device_.clear(marks, marks.getInfo<CL_MEM_SIZE>());
+  const cl::Buffer visibility = device_.buffer(bytes, "visibility grid");
+  device_.clear(visibility, visibility.getInfo<CL_MEM_SIZE>());
   cl::Kernel mark = programs_.kernel("gather", "mark_in_view");
-  set_arguments(mark, points, marks, cells, static_cast<cl_float>(0.49 * cell),
+  set_arguments(mark, points, visibility, cells, static_cast<cl_float>(0.49 * cell),
                 static_cast<cl_uint>(params.pixel_count));
   device_.launch_pass(mark, params.pixel_count);
 
   const cl::Buffer count = device_.buffer(sizeof(cl_uint), "marked photons");
   device_.clear(count, sizeof(cl_uint));
   if (photon_map_.stored() > 0) {
-    cl::Kernel count_marked = programs_.kernel("gather", "count_marked");
-    set_arguments(count_marked, photon_map_.records_buffer(), marks, count, cells,
+    cl::Kernel count_visible = programs_.kernel("gather", "count_visible");
+    set_arguments(count_visible, photon_map_.records_buffer(), visibility, count, cells,
                   static_cast<cl_uint>(photon_map_.stored()));
-    device_.launch_pass(count_marked, photon_map_.stored());
+    device_.launch_pass(count_visible, photon_map_.stored());
   }
   pilot.useful = device_.download<cl_uint>(count, 1)[0] / static_cast<double>(params_.photon_count);
   if (pilot.useful >= worth_guiding) return;
@@ -175,15 +178,16 @@ void Sppm::learn_emission(const cl::Buffer& points, const Params& params, Pilot&
   start_by({});
   Useful plain, best;
   std::vector<EmissionCell> map;
-  std::uint32_t batches = 0;  // of scouts so far
+  std::uint32_t batches = 0;  // of pilot paths so far
   for (int step = 0; step < most_steps && best.by_number < useful_enough; ++step) {
     std::vector<StartNumbers> useful;
     std::uint32_t traced = 0;
     do {
-      const auto more = photon_map_.useful_scouts(params_, scouts, beyond_passes + batches++, {marks, cells});
+      const auto more = photon_map_.useful_pilot_paths(params_, pilot_paths, beyond_passes + batches++,
+                                                       {visibility, cells});
       useful.insert(useful.end(), more.begin(), more.end());
-      traced += scouts;
-    } while (useful.size() < fewest_useful && traced < most_batches * scouts);
+      traced += pilot_paths;
+    } while (useful.size() < fewest_useful && traced < most_batches * pilot_paths);
     const Useful found = useful_by(map, useful, traced);
     if (step == 0) plain = best = found;
     if (found.by_variance > best.by_variance) {

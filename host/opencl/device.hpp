@@ -58,7 +58,7 @@ class Device {
 
   /// Whether one item of a work-group may do what all are to do: PoCL runs them one after the other
   /// (cl/photons/photon_stream.cl).
-  bool runs_items_in_turn() const { return is_pocl_; }
+  bool has_serial_work_items() const { return is_pocl_; }
 
   /// Whether several threads may use the device, as OpenCL promises: under Oclgrind one alone.
   bool takes_threads() const { return !is_oclgrind_; }
@@ -108,7 +108,7 @@ class Device {
   const std::map<std::string, KernelTime>& kernel_times();
 
   /// Programs that were built of what the cache held.
-  std::size_t kept_programs() const { return cache_ ? cache_->reused() : 0; }
+  std::size_t cached_programs() const { return cache_ ? cache_->reused() : 0; }
 
   double build_seconds() const { return build_seconds_; }
   std::uint64_t allocated_bytes() const { return allocated_bytes_; }

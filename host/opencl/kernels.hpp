@@ -21,12 +21,12 @@ constexpr std::size_t record_scale(Precision precision) { return precision == Pr
 
 /// Where kernel sources come from and where a copy of what was built goes.
 struct KernelOptions {
-  unsigned effects = 0;  // EFFECT_* bits of the scene, and OUTPUT_LAYERS where those are wanted
+  unsigned effects = 0;  // EFFECT_* bits of the scene, and OUTPUT_LIGHT_PASSES where those are wanted
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
   std::string kernel_dir;       // read cl/ live from here; empty: the embedded sources
   std::string dump_kernels;     // write each flattened source here; empty: do not
-  bool camera_packets = false;  // "camera" and "path" have a kernel first_hits, and need what it finds
+  bool camera_packets = false;  // "camera" and "path" have a kernel primary_hits, and need what it finds
   bool brute_force = false;     // "photon" and "camera" meet every primitive: see photon_rays.hpp
 };
 

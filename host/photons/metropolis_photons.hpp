@@ -1,5 +1,5 @@
-// What guides photons to where the camera sees, see cl/photons/metropolis_photons.cl: the marked cells, and
-// how many of a pass's photons are scouts.
+// What guides photons to where the camera sees, see cl/photons/metropolis_photons.cl: the cells of the
+// visibility grid, and how many of a pass's photons are pilot paths.
 #pragma once
 
 #include <cstdint>
@@ -8,34 +8,34 @@
 
 #include "device_scene/device_scene.hpp"
 #include "opencl/programs.hpp"
-#include "photons/seed_statistics.hpp"
+#include "photons/metropolis_statistics.hpp"
 #include "shared/types.h"
 
 namespace causticl {
 
 constexpr cl_uint guide_arguments = 6;
 
-class PhotonGuide {
+class MetropolisPhotons {
  public:
   /// For passes of `photons` photons, which are all plain where they are not `guided`, and start everywhere.
-  PhotonGuide(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons,
-              bool guided);
+  MetropolisPhotons(const DeviceScene& scene, Device& device, Programs& programs, std::uint32_t photons,
+                    bool guided);
 
-  /// Photons of pass `pass` that are emitted at random: all of them, in role PHOTONS_PLAIN, or scouts.
+  /// Photons of pass `pass` that are emitted at random: all of them, in role PHOTONS_PLAIN, or pilot paths.
   struct Emission {
     std::uint32_t photons;
     uint role;
   };
   Emission emission(std::uint32_t pass) const;
 
-  /// Takes note of how many of pass `pass`'s `scouts` became seeds.
-  void found(std::uint32_t seeds, std::uint32_t scouts, std::uint32_t pass);
+  /// Takes note of how many of pass `pass`'s `pilot paths` became seeds.
+  void found(std::uint32_t seeds, std::uint32_t pilot_paths, std::uint32_t pass);
   /// Copies of each of so many seeds.
   std::uint32_t copies(std::uint32_t seeds) const;
   void clear_accepted(std::uint32_t seeds) { device_.clear(accepted_, seeds * sizeof(cl_uint)); }
 
   /// As last found.
-  std::optional<SeedStatistics> seeds() const { return seeds_found_; }
+  std::optional<MetropolisStatistics> seeds() const { return current_paths_found_; }
 
   /// From now on photons are guided. With kernels of EFFECT_GUIDED_PHOTONS.
   void guide();
@@ -57,14 +57,14 @@ class PhotonGuide {
   const DeviceScene& scene_;
   Device& device_;
   Programs& programs_;
-  std::uint32_t photons_, scouts_;  // of a pass; no scouts where photons are not guided
-  cl::Buffer seeds_, accepted_, marks_, emission_;
+  std::uint32_t photons_, pilot_paths_;  // of a pass; no pilot paths where photons are not guided
+  cl::Buffer seeds_, accepted_, visibility_, emission_;
   cl_uint emission_count_ = 0;
   Grid cells_{};
   float reach_ = 0;
   cl::Kernel mark_visible_points_;
   std::uint32_t next_guided_ = 1;  // pass
-  std::optional<SeedStatistics> seeds_found_;
+  std::optional<MetropolisStatistics> current_paths_found_;
 };
 
 }  // namespace causticl

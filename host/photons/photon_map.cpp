@@ -24,7 +24,7 @@ double affordable_buckets(std::uint32_t photons) {
 }  // namespace
 
 PhotonMap::PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
-                     PhotonGuide& guide, PhotonAim& aim)
+                     MetropolisPhotons& guide, ProjectionMap& aim)
     : scene_(scene),
       device_(device),
       programs_(programs),
@@ -60,51 +60,51 @@ void PhotonMap::launch(const Params& params) {
   device_.launch_pass(trace_photons_, params.photon_count);
 }
 
-/// Traces a pass's photons: plain ones, or scouts and the copies of those that became seeds.
+/// Traces a pass's photons: plain ones, or pilot paths and the copies of those that became seeds.
 void PhotonMap::launch_all(Params params) {
   launch(params);
   if (params.photon_role == PHOTONS_PLAIN) return;
   const uint seeds = device_.download<Counters>(counters_, 1)[0].seeds;
   guide_.found(seeds, params.photon_count, params.pass);
   if (seeds == 0) return;
-  params.photon_copies = guide_.copies(seeds);
+  params.photon_mutations = guide_.copies(seeds);
   params.first_photon = 0;
-  if (params.photon_copies > 0) {
+  if (params.photon_mutations > 0) {
     guide_.clear_accepted(seeds);
-    params.photon_role = PHOTONS_COPIES;
-    params.photon_count = seeds * params.photon_copies;
+    params.photon_role = PHOTONS_MUTATED_PATHS;
+    params.photon_count = seeds * params.photon_mutations;
     launch(params);
   }
-  params.photon_role = PHOTONS_SEEDS;
+  params.photon_role = PHOTONS_CURRENT_PATHS;
   params.photon_count = seeds;
   launch(params);
 }
 
-void PhotonMap::take_aim(Params params) {
+void PhotonMap::learn_projection_map(Params params) {
   constexpr uint beyond_passes = 0xffffffff;  // numbers of their own
   params.pass = beyond_passes;
-  params.photon_role = PHOTONS_TO_AIM_BY;
+  params.photon_role = PHOTONS_FOR_PROJECTION_MAP;
   params.first_photon = 0;
-  params.photon_count = aim_.scouts();
+  params.photon_count = aim_.pilot_paths();
   set_trace_arguments();
   launch(params);
   aim_.learn();
 }
 
-std::vector<StartNumbers> PhotonMap::useful_scouts(Params params, std::uint32_t scouts, std::uint32_t pass,
-                                                   const Marked& marked) {
-  const cl::Buffer seeds = device_.buffer(scouts * sizeof(cl_uint2), "seeds of photons");
+std::vector<StartNumbers> PhotonMap::useful_pilot_paths(Params params, std::uint32_t pilot_paths,
+                                                        std::uint32_t pass, const Marked& visible) {
+  const cl::Buffer seeds = device_.buffer(pilot_paths * sizeof(cl_uint2), "seeds of photons");
   params.pass = pass;
   params.photon_role = PHOTONS_TO_LEARN_BY;
   params.first_photon = 0;
-  params.photon_count = scouts;
+  params.photon_count = pilot_paths;
   device_.clear(counters_, offsetof(Counters, rays));
   set_trace_arguments();
   trace_photons_.setArg(first_argument_ + 3, seeds);
-  trace_photons_.setArg(first_argument_ + 5, marked.marks);
-  trace_photons_.setArg(first_argument_ + 6, marked.cells);
+  trace_photons_.setArg(first_argument_ + 5, visible.visibility);
+  trace_photons_.setArg(first_argument_ + 6, visible.cells);
   launch(params);
-  const auto count = std::min(device_.download<Counters>(counters_, 1)[0].seeds, scouts);
+  const auto count = std::min(device_.download<Counters>(counters_, 1)[0].seeds, pilot_paths);
   if (count == 0) return {};
   const cl::Buffer numbers = device_.buffer(count * sizeof(StartNumbers), "seeds of photons");
   cl::Kernel seed_numbers = photon_programs_->kernel("photon", "seed_numbers");

@@ -7,37 +7,37 @@
 #include "opencl/programs.hpp"
 #include "photons/emission_map.hpp"
 #include "photons/metropolis_photons.hpp"
+#include "photons/metropolis_statistics.hpp"
 #include "photons/projection_map.hpp"
-#include "photons/seed_statistics.hpp"
 
 namespace causticl {
 
 class PhotonMap {
  public:
   PhotonMap(const DeviceScene& scene, Device& device, Programs& programs, const cl::Buffer& counters,
-            PhotonGuide& guide, PhotonAim& aim);
+            MetropolisPhotons& guide, ProjectionMap& aim);
 
   /// Waits until the kernel that traces photons is built, by `programs` from now on.
   void prepare(Programs& programs);
 
-  /// Only after prepare(), before the first pass: traces the scouts that photons are aimed by.
-  void take_aim(Params params);
+  /// Only after prepare(), before the first pass: traces the pilot paths that photons are aimed by.
+  void learn_projection_map(Params params);
 
   /// Scouts that land, not as direct light, in cells of `cells` that `marks` marks: the numbers by which they
-  /// started. `pass` tells their random numbers from those of other scouts. Only after prepare() with kernels
-  /// of EFFECT_GUIDED_PHOTONS.
+  /// started. `pass` tells their random numbers from those of other pilot paths. Only after prepare() with
+  /// kernels of EFFECT_GUIDED_PHOTONS.
   struct Marked {
-    const cl::Buffer& marks;
+    const cl::Buffer& visibility;
     Grid cells;
   };
-  std::vector<StartNumbers> useful_scouts(Params params, std::uint32_t scouts, std::uint32_t pass,
-                                          const Marked& marked);
+  std::vector<StartNumbers> useful_pilot_paths(Params params, std::uint32_t pilot_paths, std::uint32_t pass,
+                                               const Marked& visible);
 
-  /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are scouts
-  /// (params.photon_role) what follows from them. Waits for the device,
-  /// since only it knows how many were stored; where the buffer was too small, it grows and the pass is
-  /// traced again, to the same photons. Where the device has no room for that, the photons beyond are dropped
-  /// and counted. Returns the counters as they were left.
+  /// Only after prepare(). Traces params.photon_count photons of pass params.pass, and where these are pilot
+  /// paths (params.photon_role) what follows from them. Waits for the device, since only it knows how many
+  /// were stored; where the buffer was too small, it grows and the pass is traced again, to the same photons.
+  /// Where the device has no room for that, the photons beyond are dropped and counted. Returns the counters
+  /// as they were left.
   Counters trace(Params params);
 
   /// The records of the photons that trace() stored.
@@ -65,8 +65,8 @@ class PhotonMap {
   Device& device_;
   Programs& programs_;
   Programs* photon_programs_;  // that trace
-  PhotonGuide& guide_;
-  PhotonAim& aim_;
+  MetropolisPhotons& guide_;
+  ProjectionMap& aim_;
   cl::Kernel trace_photons_, count_photons_, sum_segments_, scan_sums_, scan_segments_, move_photons_;
   cl_uint first_argument_ = 0;
   std::size_t photon_bytes_;  // of one record as traced; a sorted one takes no more

@@ -14,7 +14,7 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
                                   [](const Object& object) { return object.shape == Object::Shape::bezier; });
   const bool possible = !curves && bounded_primitives(scene) <= BRUTE_FORCE_PRIMITIVES &&
                         options.precision == Precision::float32 &&
-                        options.triangle_test == TriangleTest::watertight && device.runs_items_in_turn();
+                        options.triangle_test == TriangleTest::watertight && device.has_serial_work_items();
   // A GPU's items are not helped by vectors within each.
   return possible && (wanted == PhotonRays::brute_force ||
                       (wanted == PhotonRays::automatic && device.info().type == "cpu"));
@@ -22,9 +22,9 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
 
 std::string photon_rays_text(const KernelOptions& options, const Device& device) {
   if (options.brute_force) return "sixteen at a time, each meets every primitive";
-  const bool waves = device.runs_items_in_turn() && options.precision == Precision::float32 &&
+  const bool waves = device.has_serial_work_items() && options.precision == Precision::float32 &&
                      options.triangle_test == TriangleTest::watertight;
-  return waves ? "side by side through the tree" : "one by one";
+  return waves ? "in streams through the tree" : "one at a time";
 }
 
 }  // namespace causticl

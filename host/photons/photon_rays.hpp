@@ -1,5 +1,5 @@
 // How photons find what they meet next, and shadow rays of camera paths what is in their way where
-// those end side by side (cl/photons/first_diffuse_vertices.cl).
+// those end in a batch (cl/photons/first_diffuse_vertices.cl).
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ enum class PhotonRays { automatic, tree, brute_force };
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
                         const KernelOptions& options);
 
-/// What --stats says of photons: "sixteen at a time, each meets every primitive", "side by side through the
-/// tree", "one by one".
+/// What --stats says of photons: "sixteen at a time, each meets every primitive", "in a batch through the
+/// tree", "one at a time".
 std::string photon_rays_text(const KernelOptions& options, const Device& device);
 
 }  // namespace causticl

@@ -67,14 +67,14 @@ std::vector<std::string> pilot_lines(const Pilot& pilot, const RendererSpec& ren
   }
   if (!pilot.emission.empty())
     lines.push_back(
-        formatted("photons start where useful ones do: %.2g%% of plain ones land where the camera sees, "
-                  "%.2g%% of these "
-                  "(renderer.guided_photons sets it)",
+        formatted("emission map: photons start where they reach what the camera sees (%.2g%% of them do "
+                  "without the map, "
+                  "%.2g%% with it; renderer.guided_photons sets it)",
                   100 * pilot.useful, 100 * pilot.useful_by_map));
   if (pilot.copies)
     lines.push_back(
-        "photons that land where the camera sees are copied with slight changes (renderer.guided_photons "
-        "sets it)");
+        "Metropolis photons: paths that reach what the camera sees are mutated (renderer.guided_photons sets "
+        "it)");
   return lines;
 }
 

@@ -10,19 +10,19 @@
 
 namespace causticl {
 
-/// The cells of one square of which the scouts that became parts of caustics left by `landed[cell]`: a cell
-/// is drawn as often as a square without aim would, times 1 - share, plus `share` in proportion to what
+/// The cells of one square of which the pilot paths that became parts of caustics left by `landed[cell]`: a
+/// cell is drawn as often as a square without aim would, times 1 - share, plus `share` in proportion to what
 /// landed in it and in the cells beside. Where nothing landed there is no aim.
-std::vector<AimCell> aim_cells(std::span<const cl_uint> landed, double share);
+std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited, double share);
 
-class PhotonAim {
+class ProjectionMap {
  public:
-  /// For passes of `photons` photons, which are not aimed until learn(). Without `aimed` no scout is asked
-  /// for; with no emitters, as for kernels that take no aim, there is nothing on the device either.
-  PhotonAim(Device& device, std::uint32_t emitters, std::uint32_t photons, bool aimed);
+  /// For passes of `photons` photons, which are not aimed until learn(). Without `aimed` no pilot path is
+  /// asked for; with no emitters, as for kernels that take no aim, there is nothing on the device either.
+  ProjectionMap(Device& device, std::uint32_t emitters, std::uint32_t photons, bool aimed);
 
-  /// Photons to be traced before the first pass, in role PHOTONS_TO_AIM_BY.
-  std::uint32_t scouts() const { return scouts_; }
+  /// Photons to be traced before the first pass, in role PHOTONS_FOR_PROJECTION_MAP.
+  std::uint32_t pilot_paths() const { return pilot_paths_; }
   /// Aims by what they found.
   void learn();
 
@@ -31,8 +31,8 @@ class PhotonAim {
 
  private:
   Device& device_;
-  std::uint32_t squares_, scouts_;
-  cl::Buffer cells_, landed_;
+  std::uint32_t squares_, pilot_paths_;
+  cl::Buffer cells_, deposited_;
 };
 
 }  // namespace causticl

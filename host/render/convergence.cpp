@@ -12,11 +12,11 @@ ErrorRates expected_rates(const RendererSpec& renderer) {
 
 }  // namespace
 
-ErrorWatch::ErrorWatch(Film& film, const RendererSpec& renderer, double confidence,
-                       std::optional<double> wanted)
+ConvergenceCheck::ConvergenceCheck(Film& film, const RendererSpec& renderer, double confidence,
+                                   std::optional<double> wanted)
     : film_(film), confidence_(confidence), trend_(expected_rates(renderer), confidence), wanted_(wanted) {}
 
-void ErrorWatch::update(std::uint64_t passes) {
+void ConvergenceCheck::update(std::uint64_t passes) {
   if (passes < next_) return;
   next_ = passes + std::max<std::uint64_t>(1, passes / 5);
   trend_.add(passes, film_.look(passes, look_pixels));
@@ -25,7 +25,7 @@ void ErrorWatch::update(std::uint64_t passes) {
   if (wanted_) until_wanted_ = trend_.passes_until(*wanted_);
 }
 
-std::optional<PictureError> ErrorWatch::measure(std::uint64_t passes) const {
+std::optional<PictureError> ConvergenceCheck::measure(std::uint64_t passes) const {
   if (passes < 2) return {};
   return picture_error(film_.look(passes, measure_pixels), confidence_);
 }

@@ -15,10 +15,10 @@ namespace causticl {
 /// the fourth pass (see ErrorTrend::rates).
 constexpr std::uint64_t trend_known_from = 16;
 
-class ErrorWatch {
+class ConvergenceCheck {
  public:
   /// `wanted` is the error that passes_to_wanted() is asked for; none: it is not.
-  ErrorWatch(Film& film, const RendererSpec& renderer, double confidence, std::optional<double> wanted);
+  ConvergenceCheck(Film& film, const RendererSpec& renderer, double confidence, std::optional<double> wanted);
 
   /// To be told of every pass. Looks at the film four times from one power of two to the next: often enough
   /// to see when the error is small enough, seldom enough to cost next to nothing, and by the number of

@@ -40,7 +40,8 @@ Metadata metadata_of(const Scene& scene, const RenderOptions& options, const Sta
                     {"error", statistics.error ? std::to_string(statistics.error->error) : "unknown"},
                     {"confidence", std::to_string(statistics.confidence)},
                     {"causticl_version", CAUSTICL_VERSION}};
-  for (const auto& kind : fault_kinds) metadata[kind.key] = std::to_string(statistics.faults.*kind.count);
+  for (const auto& kind : diagnostic_kinds)
+    metadata[kind.key] = std::to_string(statistics.diagnostics.*kind.count);
   return metadata;
 }
 
@@ -93,7 +94,7 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
     if (statistics.photons)
       statistics.photon_rays += (statistics.photon_rays.empty() ? "" : " + ") +
                                 photon_rays_text(part->programs.options(), part->device);
-    statistics.kept_programs += part->device.kept_programs() - part->kept_before;
+    statistics.cached_programs += part->device.cached_programs() - part->kept_before;
     for (const auto& [name, time] : part->kernel_times()) {
       statistics.kernels[name].milliseconds += time.milliseconds;
       statistics.kernels[name].launches += time.launches;
@@ -126,7 +127,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   statistics.precision = options.precision;
 
   const Effects effects = find_effects(scene);
-  const unsigned compiled = chosen_effects(effects, options.effects) | (options.layers ? OUTPUT_LAYERS : 0u);
+  const unsigned compiled =
+      chosen_effects(effects, options.effects) | (options.layers ? OUTPUT_LIGHT_PASSES : 0u);
   // Without triangles there is no such test, and the tree holds no transforms for it.
   const TriangleTest triangle_test =
       (compiled & EFFECT_TRIANGLES) != 0 ? options.triangle_test : TriangleTest::watertight;
@@ -170,7 +172,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   double recent_pass = 0;  // the longer of the last two: the first compiles kernels
   double last_pass = 0;
   double longest_write = 0;
-  ErrorWatch watch(film, scene.renderer, options.confidence, options.wanted_error);
+  ConvergenceCheck watch(film, scene.renderer, options.confidence, options.wanted_error);
   statistics.confidence = options.confidence;
   const bool with_channels = std::any_of(options.outputs.begin(), options.outputs.end(), holds_channels);
   const auto write = [&](Picture& picture, Unwritable unwritable) {
@@ -183,7 +185,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     }
     statistics.seconds = seconds_since(start);
     statistics.photons = totals.photons_emitted;
-    statistics.faults = totals.faults;
+    statistics.diagnostics = totals.diagnostics;
     statistics.error = watch.measure(statistics.passes);
     auto unwritten =
         write_pictures(options.outputs, picture, metadata_of(scene, options, statistics), unwritable);

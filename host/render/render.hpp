@@ -82,8 +82,8 @@ struct Statistics {
   double seconds = 0;             // all of render_scene
   double first_pass_seconds = 0;  // from the start until the first pass began on the device
   double first_pass_done_seconds = 0;
-  double kernel_build_seconds = 0;  // of all programs
-  std::uint64_t kept_programs = 0;  // those that an earlier run had compiled
+  double kernel_build_seconds = 0;    // of all programs
+  std::uint64_t cached_programs = 0;  // those that an earlier run had compiled
   std::vector<PassStatistics> pass_programs;
   double pass_seconds = 0;   // of the passes alone, without start-up, writing and snapshots
   double error_seconds = 0;  // looking at the error of the picture, while passes go on
@@ -96,14 +96,14 @@ struct Statistics {
   double confidence = 0.9;                     // share of pixels that `error` holds for
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
-  std::uint64_t stored_photons = 0;     // in the last pass
-  double first_radius = 0;              // sppm
-  std::optional<SeedStatistics> seeds;  // where photons are guided
-  bool first_radius_chosen = false;     // from the scene, not from the file
-  std::uint64_t device_bytes = 0;       // largest amount allocated on the device
-  std::uint64_t peak_memory_bytes = 0;  // of the process
-  double bytes_per_pixel = 0;           // device memory that grows with the number of pixels
-  Faults faults;
+  std::uint64_t stored_photons = 0;           // in the last pass
+  double first_radius = 0;                    // sppm
+  std::optional<MetropolisStatistics> seeds;  // where photons are guided
+  bool first_radius_chosen = false;           // from the scene, not from the file
+  std::uint64_t device_bytes = 0;             // largest amount allocated on the device
+  std::uint64_t peak_memory_bytes = 0;        // of the process
+  double bytes_per_pixel = 0;                 // device memory that grows with the number of pixels
+  Diagnostics diagnostics;
   std::map<std::string, KernelTime> kernels;
 };
 

@@ -26,7 +26,7 @@ KernelOptions with_rays(KernelOptions kernels, RayChoice wanted, const Scene& sc
 
 /// Whether a pixel's estimates are more even than independent ones, and owe nothing to what pixels share in a
 /// pass: photons, its time, its wavelengths.
-bool even_and_apart(const Scene& scene, const std::vector<std::string>& passes) {
+bool low_discrepancy_and_negatively_correlated(const Scene& scene, const std::vector<std::string>& passes) {
   return scene.renderer.sampler == Sampler::sobol && !has_motion(scene) &&
          std::none_of(passes.begin(), passes.end(), [](const auto& pass) { return pass == "photon"; }) &&
          std::none_of(scene.materials.begin(), scene.materials.end(),
@@ -39,10 +39,10 @@ RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& k
                            const std::vector<std::string>& passes, unsigned threads)
     : device(on),
       times_before(on.kernel_times()),
-      kept_before(on.kept_programs()),
+      kept_before(on.cached_programs()),
       programs(on, with_rays(kernels, rays, what, on), passes),
-      scene(upload_scene(what, on, threads, kernels.triangle_test)),
-      film(on, programs, what.width, what.height, even_and_apart(what, passes)) {}
+      scene(update_device_scene(what, on, threads, kernels.triangle_test)),
+      film(on, programs, what.width, what.height, low_discrepancy_and_negatively_correlated(what, passes)) {}
 
 std::map<std::string, KernelTime> RenderDevice::kernel_times() const {
   auto times = device.kernel_times();
@@ -117,7 +117,7 @@ PassIntegrator::Totals SeveralDevices::finish() {
   for (std::size_t i = 1; i < devices_.size(); ++i) {
     const Totals more = devices_[i]->integrator->finish();
     totals.rays += more.rays;
-    for (const auto& kind : fault_kinds) totals.faults.*kind.count += more.faults.*kind.count;
+    for (const auto& kind : diagnostic_kinds) totals.diagnostics.*kind.count += more.diagnostics.*kind.count;
   }
   return totals;
 }

@@ -40,7 +40,7 @@ class Finder {
     if (glass_.empty()) return std::move(result_);
     find_camera();
     find_lights();
-    for (std::size_t i = 0; i < glass_.size(); ++i) meet_others(i);
+    for (std::size_t i = 0; i < glass_.size(); ++i) intersect_others(i);
     order_bodies();
     for (const auto& line : overlaps_) result_.lines.push_back(line);
     return std::move(result_);
@@ -121,7 +121,7 @@ class Finder {
   bool moves(const Object& object) const { return length(object.motion) > 0; }
 
   /// What body `i` of glass does with the other objects.
-  void meet_others(std::size_t i) {
+  void intersect_others(std::size_t i) {
     const Object& object = scene_.objects[objects_[i]];
     const double tolerance = contact_tolerance(glass_[i].bounds);
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) {

@@ -105,7 +105,7 @@ bool visit_triangles(const Scene& scene, const Object& object, const TriangleVis
   }
 }
 
-bool has_needles(const Scene& scene, const Object& object) {
+bool has_slivers(const Scene& scene, const Object& object) {
   // Corners are rounded to float, wherever the object has moved to: so much may each end of an edge be off.
   constexpr double roundoff = 1.0 / (1 << 24);
   double moved = 0;
@@ -118,7 +118,7 @@ bool has_needles(const Scene& scene, const Object& object) {
     const double shorter = std::min(length(e), length(f));
     const double sine = length(cross(e, f)) / (length(e) * length(f));
     // Each edge is off by no more than 4 roundings, and turns by that over its length.
-    return sine - 8 * roundoff * reach / shorter > 1.01 * std::sqrt(NEEDLE_SINE2);
+    return sine - 8 * roundoff * reach / shorter > 1.01 * std::sqrt(SLIVER_SINE2);
   });
 }
 

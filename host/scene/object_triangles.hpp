@@ -24,7 +24,7 @@ using TriangleVisitor = std::function<bool(const TriangleCorner (&)[3], bool smo
 bool visit_triangles(const Scene& scene, const Object& object, const TriangleVisitor& visit);
 
 /// Whether one of the object's triangles is, or may be where the object has moved to, so thin that what is
-/// left of the cross product of its edges has to be computed more exactly than in float (EFFECT_NEEDLES).
-bool has_needles(const Scene& scene, const Object& object);
+/// left of the cross product of its edges has to be computed more exactly than in float (EFFECT_SLIVERS).
+bool has_slivers(const Scene& scene, const Object& object);
 
 }  // namespace causticl

@@ -1,4 +1,5 @@
-// Hard case 10: revolved Bezier curves. No ray may lose its first hit, whatever it has to do with the curve.
+// Hard case 10: revolved Bezier curves. No ray may lose its primary hit, whatever it has to do with the
+// curve.
 #include <atomic>
 #include <memory>
 
@@ -16,7 +17,7 @@ constexpr const char* source = R"(
 #include "shapes/bezier.cl"
 #include "sampling/rng.cl"
 // A ray (number of the curve, origin, direction) and what it meets (t, u, error, position, normal).
-OUTLINE void meet_one(global const float *in, global float *out, global const Shape *shapes, global const float *curves,
+OUTLINE void intersect_one(global const float *in, global float *out, global const Shape *shapes, global const float *curves,
                       uint first_curve) {
   global const Shape *shape = shapes + ((uint)in[0] - first_curve);
   Ray ray = {convert_real3(vload3(0, in + 1)), convert_real3(vload3(0, in + 4))};
@@ -35,7 +36,7 @@ OUTLINE void meet_one(global const float *in, global float *out, global const Sh
 kernel void meet(global const float *rays, global float *results, uint count, global const Shape *shapes,
                  global const float *curves, uint first_curve) {
   uint i = get_global_id(0);
-  if (i < count) meet_one(rays + 7 * i, results + 9 * i, shapes, curves, first_curve);
+  if (i < count) intersect_one(rays + 7 * i, results + 9 * i, shapes, curves, first_curve);
 }
 // Follows a photon (index of the shape, seed, path) that bounces inside a closed surface, every fourth time off
 // to a grazing direction, and counts how often it meets nothing; then it starts anew.
@@ -137,7 +138,7 @@ struct OracleRay {
         direction(set.to_local[i].vector(d)),
         tolerance((i < special_curves.size() ? 8e-6 : 3.2e-6) * (oracle.scale() + 0.1 * length(origin))) {}
 
-  /// Whether a first hit at t is right for the surface, or the ray, moved by no more than the tolerance.
+  /// Whether a primary hit at t is right for the surface, or the ray, moved by no more than the tolerance.
   bool right_within_rounding(double t) const {
     if (oracle.right_within(origin, direction, t, tolerance)) return true;  // it grazes
     // Where an open surface ends, the ray may pass on either side.
@@ -179,14 +180,14 @@ CheckResult run_ray_check(CheckContext& context, std::initializer_list<CurveRay>
 /// The relative error of t beyond what rounding moves the surface by; 1 for a hit that one of both does not
 /// have. Where the ray grazes the surface or meets its edge, the double-precision answer is one of several
 /// that are right in single precision: then the device's must be another of them.
-CheckResult first_hits(CheckContext& context, std::initializer_list<CurveRay> kinds) {
+CheckResult primary_hits(CheckContext& context, std::initializer_list<CurveRay> kinds) {
   constexpr double tolerance = 1e-4;
   std::atomic<std::uint64_t> unresolved = 0, grazing = 0;
   CheckResult result = run_ray_check(
       context, kinds, tolerance, "relative",
       [&](const CurveSet& set, const CurveRayInput& in, const CurveHit& out) {
         const OracleRay ray(set, in);
-        const double t = out.t, expected = ray.oracle.first_hit(ray.origin, ray.direction);
+        const double t = out.t, expected = ray.oracle.primary_hit(ray.origin, ray.direction);
         unresolved += std::isfinite(t) && out.u < 0;
         if (t == expected) return 0.0;
         const double beyond = std::fabs(t - expected) - ray.tolerance / length(ray.direction);
@@ -200,19 +201,19 @@ CheckResult first_hits(CheckContext& context, std::initializer_list<CurveRay> ki
 }
 
 CheckResult ordinary_rays(CheckContext& context) {
-  return first_hits(context, {CurveRay::outside, CurveRay::aimed, CurveRay::inside});
+  return primary_hits(context, {CurveRay::outside, CurveRay::aimed, CurveRay::inside});
 }
 
 CheckResult tangent_rays(CheckContext& context) {
-  return first_hits(context, {CurveRay::tangent, CurveRay::near_tangent, CurveRay::chord});
+  return primary_hits(context, {CurveRay::tangent, CurveRay::near_tangent, CurveRay::chord});
 }
 
 CheckResult axis_rays(CheckContext& context) {
-  return first_hits(context, {CurveRay::upright, CurveRay::axial, CurveRay::through_axis});
+  return primary_hits(context, {CurveRay::upright, CurveRay::axial, CurveRay::through_axis});
 }
 
 CheckResult horizontal_rays(CheckContext& context) {
-  return first_hits(context, {CurveRay::horizontal, CurveRay::near_horizontal});
+  return primary_hits(context, {CurveRay::horizontal, CurveRay::near_horizontal});
 }
 
 /// The distance of the hit point from the surface, in units of the bound by which spawned rays are moved off

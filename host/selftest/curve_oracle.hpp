@@ -44,7 +44,7 @@ class CurveOracle {
   double scale() const { return scale_; }
 
   /// The least t > 0, or infinity.
-  double first_hit(Vec3 o, Vec3 d) const {
+  double primary_hit(Vec3 o, Vec3 d) const {
     double best = INFINITY;
     int stack[64], size = 0;
     stack[size++] = 1;
@@ -61,18 +61,18 @@ class CurveOracle {
     return best;
   }
 
-  /// Whether a first hit at `t` is right for a surface that is known to within `tolerance`: the ray is at the
-  /// surface there, and wherever it crosses the surface before, it stays within the tolerance until it
+  /// Whether a primary hit at `t` is right for a surface that is known to within `tolerance`: the ray is at
+  /// the surface there, and wherever it crosses the surface before, it stays within the tolerance until it
   /// crosses back or reaches t.
   bool right_within(Vec3 o, Vec3 d, double t, double tolerance) const {
     const auto away = [&](double at) { return distance(o + d * at, 2 * tolerance) > tolerance; };
     if (std::isfinite(t) && away(t)) return false;
     double start = 0;
     for (int crossing = 0; crossing < 64; ++crossing) {
-      const double next = start + first_hit(o + d * start, d);
+      const double next = start + primary_hit(o + d * start, d);
       if (next >= t * (1 - 1e-6)) return true;
       const double after = next + 1e-9 * (1 + next);
-      const double until = std::min(after + first_hit(o + d * after, d), t);
+      const double until = std::min(after + primary_hit(o + d * after, d), t);
       if (std::isinf(until)) return false;
       for (int i = 0; i < 16; ++i)
         if (away(next + (until - next) * (i + 0.5) / 16)) return false;

@@ -156,11 +156,11 @@ CheckResult equals_brute_force(CheckContext& context) {
         return answers;
       },
       [](const MeshRay&, const Answers& found) {
-        const std::uint32_t met = found.brute_force.triangle != BLOCK_EMPTY;
+        const std::uint32_t did_hit = found.brute_force.triangle != BLOCK_EMPTY;
         const bool nearest =
-            found.tree.t == found.brute_force.t && (found.tree.triangle != BLOCK_EMPTY) == (met != 0);
+            found.tree.t == found.brute_force.t && (found.tree.triangle != BLOCK_EMPTY) == (did_hit != 0);
         const bool same = found.packet.t == found.tree.t && found.packet.triangle == found.tree.triangle;
-        return nearest && same && found.occluded == met ? 0.0 : 1.0;
+        return nearest && same && found.occluded == did_hit ? 0.0 : 1.0;
       });
 }
 

@@ -64,7 +64,7 @@ struct ManyLights {
       mesh.position_index.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
     scene.meshes.push_back(std::move(mesh));
-    emitters = build_world(scene).emitters;
+    emitters = flatten_scene(scene).emitters;
     long double sum = 0;
     std::vector<long double> sums;
     for (const auto& light : emitters) sums.push_back(sum += power(light));

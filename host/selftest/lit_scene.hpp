@@ -16,7 +16,7 @@ struct LitScene {
   Params params{};
 
   void upload(Device& device) {
-    uploaded = upload_scene(scene, device, 1);
+    uploaded = update_device_scene(scene, device, 1);
     params.emitter_count = uploaded.emitter_count;
     params.emitter_density = static_cast<float>(1 / uploaded.emitted_power);
   }

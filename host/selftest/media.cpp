@@ -29,17 +29,17 @@ kernel void turn(global float4 *out, uint count, uint first, uint seed, float4 d
   out[i] = convert_float4((real4)(phase_sample(g, convert_real3(direction.xyz), random4(stream, 0).xy), 0));
 }
 typedef struct {
-  float carried[3], extinction[3], t_max, u[2];
+  float throughput[3], extinction[3], t_max, u[2];
 } Flight;
 kernel void fly(global const Flight *in, global float4 *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   global const Flight *f = in + i;
   Medium medium = {(real3)(f->extinction[0], f->extinction[1], f->extinction[2]), (real3)(0, 0, 0), 0};
-  real3 carried = (real3)(f->carried[0], f->carried[1], f->carried[2]);
+  real3 throughput = (real3)(f->throughput[0], f->throughput[1], f->throughput[2]);
   real distance = 0;
-  bool interacts = medium_flight(&medium, f->t_max, (real2)(f->u[0], f->u[1]), &carried, &distance);
-  out[i] = convert_float4((real4)(carried, interacts ? distance : -1));
+  bool interacts = medium_flight(&medium, f->t_max, (real2)(f->u[0], f->u[1]), &throughput, &distance);
+  out[i] = convert_float4((real4)(throughput, interacts ? distance : -1));
 }
 )";
 
@@ -114,7 +114,7 @@ CheckResult scattered_directions(CheckContext& context) {
 }
 
 struct Flight {
-  float carried[3], extinction[3], t_max, u[2];
+  float throughput[3], extinction[3], t_max, u[2];
 };
 
 /// The distance by the extinction of the channel that was drawn, and what is carried on: transmittance over
@@ -125,8 +125,8 @@ CheckResult free_flight(CheckContext& context) {
       context, 2e-5, "relative",
       [](InputRandom& random, std::uint64_t index) {
         Flight in;
-        for (float& value : in.carried) value = index % 5 && random.below(4) ? random.uniform24() : 0;
-        if (index % 5 == 0) in.carried[random.below(3)] = 1;
+        for (float& value : in.throughput) value = index % 5 && random.below(4) ? random.uniform24() : 0;
+        if (index % 5 == 0) in.throughput[random.below(3)] = 1;
         for (float& value : in.extinction) value = static_cast<float>(random.scale(-1, 1));
         in.t_max = index % 7 ? static_cast<float>(random.scale(-2, 0.5)) : INFINITY;
         for (float& value : in.u) value = random.uniform24();
@@ -134,11 +134,11 @@ CheckResult free_flight(CheckContext& context) {
       },
       [&](const auto& inputs) { return kernel.run<float4>(inputs); },
       [](const Flight& in, const float4& out) {
-        const double carried[] = {in.carried[0], in.carried[1], in.carried[2]},
-                     sum = carried[0] + carried[1] + carried[2];
+        const double throughput[] = {in.throughput[0], in.throughput[1], in.throughput[2]},
+                     sum = throughput[0] + throughput[1] + throughput[2];
         if (!(sum > 0)) return out.x == 0 && out.y == 0 && out.z == 0 && out.w < 0 ? 0.0 : INFINITY + 0.0;
         // A random number at the border of two channels may choose either.
-        const double u = in.u[0] * sum, one = carried[0], two = carried[0] + carried[1];
+        const double u = in.u[0] * sum, one = throughput[0], two = throughput[0] + throughput[1];
         if (std::fabs(u - one) < 1e-6 * sum || std::fabs(u - two) < 1e-6 * sum) return 0.0;
         const int channel = u < one ? 0 : u < two ? 1 : 2;
         const double distance = -std::log1p(-static_cast<double>(in.u[1])) / in.extinction[channel];
@@ -149,12 +149,12 @@ CheckResult free_flight(CheckContext& context) {
         double density = 0, left[3];
         for (int c = 0; c < 3; ++c) {
           left[c] = std::exp(-in.extinction[c] * flown);
-          density += carried[c] / sum * left[c] * (interacts ? in.extinction[c] : 1);
+          density += throughput[c] / sum * left[c] * (interacts ? in.extinction[c] : 1);
         }
         double error = interacts && distance > 0 ? std::fabs(out.w / distance - 1) : 0;
         const float found[] = {out.x, out.y, out.z};
         for (int c = 0; c < 3; ++c) {
-          const double exact = carried[c] * left[c] / density, scale = 1 + in.extinction[c] * flown;
+          const double exact = throughput[c] * left[c] / density, scale = 1 + in.extinction[c] * flown;
           // What is far below the float's range beside the others may be lost.
           if (exact > 1e-20) error = std::max(error, std::fabs(found[c] / exact - 1) / scale);
         }
@@ -165,10 +165,10 @@ CheckResult free_flight(CheckContext& context) {
 constexpr const char* dispersion_source = R"(
 #include "materials/dispersion.cl"
 typedef struct {
-  float carried[3], random, b;
+  float throughput[3], random, b;
 } Arriving;
 typedef struct {
-  float carried[3], ior;
+  float throughput[3], ior;
 } Leaving;
 kernel void bend(global const Arriving *in, global Leaving *out, uint count, global Material *materials,
                  float4 inverse_wavelength2) {
@@ -178,18 +178,18 @@ kernel void bend(global const Arriving *in, global Leaving *out, uint count, glo
   bsdf.kind = MATERIAL_GLASS;
   bsdf.ior = (real)1.5;
   materials[i].absorption.w = in[i].b;
-  real3 carried = (real3)(in[i].carried[0], in[i].carried[1], in[i].carried[2]);
-  disperse(&bsdf, materials + i, convert_real3(inverse_wavelength2.xyz), in[i].random, &carried);
-  vstore3(convert_float3(carried), 0, out[i].carried);
+  real3 throughput = (real3)(in[i].throughput[0], in[i].throughput[1], in[i].throughput[2]);
+  disperse(&bsdf, materials + i, convert_real3(inverse_wavelength2.xyz), in[i].random, &throughput);
+  vstore3(convert_float3(throughput), 0, out[i].throughput);
   out[i].ior = bsdf.ior;
 }
 )";
 
 struct Arriving {
-  float carried[3], random, b;
+  float throughput[3], random, b;
 };
 struct Leaving {
-  float carried[3], ior;
+  float throughput[3], ior;
 };
 
 /// One channel goes on, with the weight of all and the index of its own wavelength.
@@ -202,16 +202,16 @@ CheckResult dispersion(CheckContext& context) {
       context, 4e-7, "relative",
       [](InputRandom& random, std::uint64_t index) {
         Arriving in;
-        for (float& value : in.carried) value = random.below(4) ? random.uniform24() : 0;
+        for (float& value : in.throughput) value = random.below(4) ? random.uniform24() : 0;
         in.random = random.uniform24();
         in.b = index % 8 ? static_cast<float>(random.scale(-4, -1)) : 0;
         return in;
       },
       [&](const auto& inputs) { return kernel.run<Leaving>(inputs); },
       [&](const Arriving& in, const Leaving& out) {
-        const double one = in.carried[0], two = one + in.carried[1], sum = two + in.carried[2];
+        const double one = in.throughput[0], two = one + in.throughput[1], sum = two + in.throughput[2];
         if (!(in.b > 0) || !(sum > 0)) {
-          const bool kept = std::equal(in.carried, in.carried + 3, out.carried) && out.ior == 1.5f;
+          const bool kept = std::equal(in.throughput, in.throughput + 3, out.throughput) && out.ior == 1.5f;
           return kept ? 0.0 : INFINITY + 0.0;
         }
         const double u = in.random * sum;
@@ -220,9 +220,9 @@ CheckResult dispersion(CheckContext& context) {
         const double ior = 1.5 + static_cast<double>(in.b) * (channel == 0   ? inverse.x
                                                               : channel == 1 ? inverse.y
                                                                              : inverse.z);
-        double error = std::max(std::fabs(out.carried[channel] / sum - 1), std::fabs(out.ior / ior - 1));
+        double error = std::max(std::fabs(out.throughput[channel] / sum - 1), std::fabs(out.ior / ior - 1));
         for (int c = 0; c < 3; ++c)
-          if (c != channel && out.carried[c] != 0) error = INFINITY;
+          if (c != channel && out.throughput[c] != 0) error = INFINITY;
         return error;
       });
 }

@@ -12,7 +12,10 @@ namespace {
 constexpr std::size_t step_limit = 1 << 14;
 
 const std::string source = "#define KD_STEP_LIMIT " + std::to_string(step_limit) + R"(
+#include "traversal/brute_force.cl"
 #include "traversal/geometry.cl"
+#include "traversal/kdtree_packet.cl"
+#include "traversal/kdtree_stream.cl"
 typedef struct {
   float origin[3], direction[3];
   float t_max;
@@ -34,7 +37,7 @@ INLINE Ray mesh_ray(global const MeshRay *in) {
   return ray;
 }
 INLINE MeshHit mesh_hit(global const TriangleBlock *blocks, Hit hit) {
-  MeshHit result = {hit.faults ? NAN : (float)hit.t, BLOCK_EMPTY};
+  MeshHit result = {hit.diagnostics ? NAN : (float)hit.t, BLOCK_EMPTY};
   if (hit.primitive != HIT_NONE) result.triangle = blocks[hit.primitive / 8u].primitive[hit.primitive % 8u];
   return result;
 }
@@ -54,9 +57,6 @@ kernel void mesh_closest(global const MeshRay *rays, global MeshHit *hits, uint 
   if (i < count) hits[i] = tree_closest(rays + i, ranges, nodes, blocks, list);
 }
 #ifndef TRIANGLES_PRECOMPUTED
-#include "traversal/kdtree_packet.cl"
-#include "traversal/brute_force.cl"
-#include "traversal/kdtree_stream.cl"
 // As one of sixteen rays from the same point: the others go to all sides of it, some of them far.
 OUTLINE MeshHit closest_in_packet(global const MeshRay *in, uint own, MESHES) {
   MeshRange range = ranges[in->mesh];
@@ -85,17 +85,17 @@ OUTLINE MeshHit closest_by_brute_force(global const MeshRay *in, uint own, MESHE
   }
   RayArrays rays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
   uint cut_short = brute_force_closest(nodes + range.first_node, blocks + range.first_block, 0, 0, 0, PACKET_RAYS, &rays);
-  Hit hit = {t[own], primitive[own], u[own], v[own], cut_short > 0 ? FAULT_TRAVERSAL_BOUND : 0u};
+  Hit hit = {t[own], primitive[own], u[own], v[own], cut_short > 0 ? DIAGNOSTIC_TRAVERSAL_BOUND : 0u};
   return mesh_hit(blocks + range.first_block, hit);
 }
-#ifdef KDTREE_WAVES
+#ifdef KDTREE_STREAMS
 // As one of a wave that go anywhere.
-OUTLINE MeshHit closest_in_wave(global const MeshRay *in, uint own, MESHES) {
+OUTLINE MeshHit closest_in_stream(global const MeshRay *in, uint own, MESHES) {
   MeshRange range = ranges[in->mesh];
   Ray ray = mesh_ray(in);
-  float origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
-  uint primitive[WAVE_CAPACITY], faults[WAVE_CAPACITY];
-  for (uint i = 0; i < WAVE_CAPACITY; ++i) {
+  float origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
+  uint primitive[STREAM_CAPACITY], diagnostics[STREAM_CAPACITY];
+  for (uint i = 0; i < STREAM_CAPACITY; ++i) {
     real3 other = (real3)(i & 1u ? -1 : 1, i & 2u ? -2 : 2, i & 4u ? -3 : 3) * (0.05f * (1u + i / 8u));
     real3 d = i == own ? ray.direction : ray.direction.yzx + other;
     origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
@@ -103,12 +103,12 @@ OUTLINE MeshHit closest_in_wave(global const MeshRay *in, uint own, MESHES) {
     t[i] = in->t_max, u[i] = v[i] = 0, primitive[i] = HIT_NONE;
   }
   RayArrays rays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
-  kdtree_wave(nodes + range.first_node, blocks + range.first_block, 0, 0, &rays, WAVE_CAPACITY, faults);
-  Hit hit = {t[own], primitive[own], u[own], v[own], faults[own]};
+  kdtree_stream(nodes + range.first_node, blocks + range.first_block, 0, 0, &rays, STREAM_CAPACITY, diagnostics);
+  Hit hit = {t[own], primitive[own], u[own], v[own], diagnostics[own]};
   return mesh_hit(blocks + range.first_block, hit);
 }
 #else
-#define closest_in_wave(in, own, ranges, nodes, blocks, list) tree_closest(in, ranges, nodes, blocks, list)
+#define closest_in_stream(in, own, ranges, nodes, blocks, list) tree_closest(in, ranges, nodes, blocks, list)
 #endif
 // A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a wave
 // (singly where the device has none), and every second, where a mesh has few triangles, against all of them.
@@ -120,21 +120,21 @@ kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint 
   else if (i % (2u * PACKET_RAYS) == 0 && 8u * ranges[rays[i].mesh].listed <= BRUTE_FORCE_PRIMITIVES)
     hits[i] = closest_by_brute_force(rays + i, own, ranges, nodes, blocks, list);
   else if (i % (4u * PACKET_RAYS) == PACKET_RAYS)
-    hits[i] = closest_in_wave(rays + i, i / (4u * PACKET_RAYS) % WAVE_CAPACITY, ranges, nodes, blocks, list);
+    hits[i] = closest_in_stream(rays + i, i / (4u * PACKET_RAYS) % STREAM_CAPACITY, ranges, nodes, blocks, list);
   else
     hits[i] = closest_in_packet(rays + i, own, ranges, nodes, blocks, list);
 }
 #endif
 OUTLINE uint tree_occluded(global const MeshRay *in, MESHES) {
   MeshRange range = ranges[in->mesh];
-  uint faults = 0;
+  uint diagnostics = 0;
   uint occluded = kdtree_occluded(nodes + range.first_node, blocks + range.first_block, 0, 0, mesh_ray(in), in->t_max,
-                                  &faults);
-  return faults ? 2u : occluded;
+                                  &diagnostics);
+  return diagnostics ? 2u : occluded;
 }
-kernel void mesh_occluded(global const MeshRay *rays, global uint *met, uint count, MESHES) {
+kernel void mesh_occluded(global const MeshRay *rays, global uint *did_hit, uint count, MESHES) {
   uint i = get_global_id(0);
-  if (i < count) met[i] = tree_occluded(rays + i, ranges, nodes, blocks, list);
+  if (i < count) did_hit[i] = tree_occluded(rays + i, ranges, nodes, blocks, list);
 }
 OUTLINE MeshHit brute_force(global const MeshRay *in, MESHES) {
   MeshRange range = ranges[in->mesh];

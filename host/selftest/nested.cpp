@@ -43,7 +43,7 @@ Scene sky_of_one() {
   return scene;
 }
 
-/// Six places side by side: boxes that share a face; boxes that overlap; a ball in a ball in a box, the last
+/// Six places in a batch: boxes that share a face; boxes that overlap; a ball in a ball in a box, the last
 /// of index 1; tangent balls; a thin coat; a ball on a mirror. With `turned` the other way round, since of
 /// surfaces at one place the one that is found first depends on the order.
 Scene contacts(bool turned) {
@@ -106,12 +106,12 @@ kernel void around(global const Place *in, global uint *out, uint count, SCENE_P
   uint i = get_global_id(0);
   if (i >= count) return;
   SCENE_INIT(params);
-  uint faults = 0;
-  MediumStack stack = media_around(&scene, (real3)(in[i].point[0], in[i].point[1], in[i].point[2]), &faults);
+  uint diagnostics = 0;
+  MediumStack stack = media_around(&scene, (real3)(in[i].point[0], in[i].point[1], in[i].point[2]), &diagnostics);
   uint bits = 0;
   for (uint k = 0; k < stack.count; ++k) bits |= 1u << (stack.material[k] & 31u);
   bits |= (medium_stack_top(&stack) & 31u) << 20u;  // which fills the place
-  out[i] = faults == 0 ? bits : 0xffffffffu;
+  out[i] = diagnostics == 0 ? bits : 0xffffffffu;
 }
 )";
 
@@ -130,7 +130,7 @@ CheckResult inside(CheckContext& context) {
   scene.meshes = {torus(12, 8, 1.5, 0.4)};
   scene.objects.push_back(make_mesh_object(0, {}, add_glass(scene, 1.2)));
   scene.objects.back().smooth = false;
-  const DeviceScene device_scene = upload_scene(scene, context.device);
+  const DeviceScene device_scene = update_device_scene(scene, context.device);
   const Params params = scene_params(scene, device_scene, 1);
   std::vector<Body> bodies;
   for (const int index : device_scene.dielectrics.bodies)

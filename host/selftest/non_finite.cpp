@@ -144,7 +144,7 @@ CheckResult bad_texels(CheckContext& context) {
     const RenderResult bad = render(NAN, INFINITY), black = render(0, 0);
     for (std::size_t i = 0; i < black.picture.rgb.size(); ++i)
       result.failures += !(bad.picture.rgb[i] == black.picture.rgb[i]);
-    result.failures += bad.statistics.faults.non_finite == 0;
+    result.failures += bad.statistics.diagnostics.non_finite == 0;
     result.inputs += black.picture.rgb.size() / 3;
   }
   return result;

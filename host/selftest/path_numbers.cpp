@@ -1,4 +1,4 @@
-// Hard case 21: the numbers of camera paths.
+// Hard case 21: the sample dimensions of camera paths.
 #include <array>
 
 #include "selftest/histogram_check.hpp"

@@ -56,14 +56,14 @@ struct RoughLobeOracle {
     if (!(result.cosine > 0) || (other > 0) != reflects) return result;
     const double reflectance = fresnel_oracle(result.cosine, eta), d = distribution(result.h);
     const double visible = masking(v) * result.cosine * d / v.z;
-    const double shadowed = result.cosine * d / (v.z * (1 + lambda(v) + lambda(leaving)));
+    const double occluded_along = result.cosine * d / (v.z * (1 + lambda(v) + lambda(leaving)));
     if (reflects) {
-      result.value = reflectance * shadowed / (4 * result.cosine);
+      result.value = reflectance * occluded_along / (4 * result.cosine);
       result.pdf = (transmits ? reflectance : 1) * visible / (4 * result.cosine);
     } else {
       const double root = result.cosine + eta.real() * other;
       const double jacobian = std::norm(eta) * std::fabs(other) / (root * root);
-      result.value = (1 - reflectance) * shadowed * jacobian / std::norm(eta);
+      result.value = (1 - reflectance) * occluded_along * jacobian / std::norm(eta);
       result.pdf = (1 - reflectance) * visible * jacobian;
     }
     return result;

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* source = R"(
 #include "materials/bsdf.cl"
 typedef struct {
-  float arriving[3], leaving[3], random[3];
+  float wi[3], leaving[3], random[3];
   float alpha, ior;
   uint kind;
 } Input;
@@ -30,17 +30,17 @@ kernel void lobe(global const Input *in, global Output *out, uint count) {
   Bsdf bsdf = {material.kind, (real3)(1, 1, 1), in[i].ior, 0, convert_real3(material.eta.xyz),
                convert_real3(material.k.xyz), 0, false};
   bsdf.alpha = lobe_alpha(material.alpha, bsdf.kind == MATERIAL_GLASS ? bsdf.ior : 0);
-  real3 n = (real3)(0, 0, 1), arriving = convert_real3(vload3(0, in[i].arriving));
+  real3 n = (real3)(0, 0, 1), wi = convert_real3(vload3(0, in[i].wi));
   Surface surface = {(real3)(0, 0, 0), n, n, (real2)(0, 0), 0, 0};
   real4 random = (real4)(convert_real3(vload3(0, in[i].random)), 0);
-  BsdfSample next = bsdf_sample(&bsdf, &surface, arriving, random, true);
+  BsdfSample next = bsdf_sample(&bsdf, &surface, wi, random, true);
   vstore3(convert_float3(next.direction), 0, out[i].direction);
   out[i].weight = next.weight.x;
   out[i].pdf = next.pdf;
   out[i].alpha = bsdf.alpha;
-  n = facing_normal(&surface, arriving);
-  BsdfSample again = rough_evaluate(&bsdf, &surface, arriving, n, next.direction);
-  BsdfSample other = rough_evaluate(&bsdf, &surface, arriving, n, convert_real3(vload3(0, in[i].leaving)));
+  n = facing_normal(&surface, wi);
+  BsdfSample again = rough_evaluate(&bsdf, &surface, wi, n, next.direction);
+  BsdfSample other = rough_evaluate(&bsdf, &surface, wi, n, convert_real3(vload3(0, in[i].leaving)));
   out[i].again_weight = again.weight.x;
   out[i].again_pdf = again.pdf;
   out[i].value = other.weight.x * other.pdf;
@@ -49,7 +49,7 @@ kernel void lobe(global const Input *in, global Output *out, uint count) {
 )";
 
 struct Input {
-  float arriving[3], leaving[3], random[3];
+  float wi[3], leaving[3], random[3];
   float alpha, ior;
   std::uint32_t kind;
 };
@@ -80,8 +80,8 @@ struct Lobe {
   double side;
 
   Lobe(const Input& in, double alpha) {
-    side = in.arriving[2] < 0 ? 1 : -1;
-    v = {-in.arriving[0], -in.arriving[1], std::max(std::fabs(double(in.arriving[2])), grazing_cosine)};
+    side = in.wi[2] < 0 ? 1 : -1;
+    v = {-in.wi[0], -in.wi[1], std::max(std::fabs(double(in.wi[2])), grazing_cosine)};
     oracle.alpha = alpha;
     oracle.transmits = in.kind == MATERIAL_GLASS;
     oracle.eta = oracle.transmits ? std::complex<double>(side > 0 ? in.ior : 1 / double(in.ior))
@@ -138,7 +138,7 @@ Input make_input(InputRandom& random, std::uint64_t index) {
   const double cosine = index % 5 ? random.uniform() : cosines[random.below(cosines.size())];
   const double angle = random.uniform(0, 2 * std::numbers::pi), sine = std::sqrt(1 - cosine * cosine);
   const double side = random.below(2) ? 1 : -1;
-  store({sine * std::cos(angle), sine * std::sin(angle), -side * cosine}, in.arriving);
+  store({sine * std::cos(angle), sine * std::sin(angle), -side * cosine}, in.wi);
 
   for (float& u : in.random) u = random.uniform24();
   if (index % 7 == 0)
@@ -149,7 +149,7 @@ Input make_input(InputRandom& random, std::uint64_t index) {
   Vec3 leaving = random.direction();
   if (random.below(4)) {
     const double spread = in.alpha * random.scale(-1, 1), z = random.below(2) ? -1 : 1;
-    leaving = normalize(Vec3{in.arriving[0], in.arriving[1], z * in.arriving[2]} + spread * leaving);
+    leaving = normalize(Vec3{in.wi[0], in.wi[1], z * in.wi[2]} + spread * leaving);
   }
   store(leaving, in.leaving);
   return in;
@@ -231,7 +231,7 @@ CheckResult evaluated(CheckContext& context) {
         const double condition = lobe.condition(exact, leaving);
         if (exact.length == 0 || lobe.on_verge(exact, leaving)) return 0.0;
         // A path exactly along the surface has no side to reflect to.
-        if (in.arriving[2] == 0 && out.value == 0) return 0.0;
+        if (in.wi[2] == 0 && out.value == 0) return 0.0;
         if (!(exact.pdf > 0)) return out.value_pdf == 0 ? 0.0 : 1e9;
         return std::max(lobe_error(out.value_pdf, exact.pdf, condition, exact, leaving),
                         lobe_error(out.value, exact.value, condition, exact, leaving));

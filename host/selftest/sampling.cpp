@@ -50,8 +50,8 @@ kernel void glass(global float *out, uint count, uint first, uint seed, global c
   real cosine = cosines[(first + i) % 16u];
   Bsdf bsdf = {MATERIAL_GLASS, (real3)(1, 1, 1), ior};
   Surface surface = {(real3)(0, 0, 0), (real3)(0, 0, 1), (real3)(0, 0, 1), (real2)(0, 0), 0, 0};
-  real3 arriving = (real3)(sqrt(1 - cosine * cosine), 0, -cosine);
-  BsdfSample next = bsdf_sample(&bsdf, &surface, arriving, random4(stream, DIM_BOUNCE_FIRST), true);
+  real3 wi = (real3)(sqrt(1 - cosine * cosine), 0, -cosine);
+  BsdfSample next = bsdf_sample(&bsdf, &surface, wi, random4(stream, DIM_BOUNCE_FIRST), true);
   out[i] = next.direction.z;
 }
 )";

@@ -55,7 +55,7 @@ const char* hard_case_name(int hard_case) {
       "origin in, on or tangent to a sphere",
       "cracks between triangles",
       "precomputed triangles",
-      "needles and degenerate triangles",
+      "sliver and degenerate triangles",
       "slabs, flat boxes, axis-parallel rays",
       "KD-tree against brute force",
       "self-intersection",

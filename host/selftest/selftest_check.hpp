@@ -44,7 +44,7 @@ struct CheckContext {
 };
 
 struct Check {
-  int hard_case;             // its number in README's table of hard cases
+  int hard_case;             // its number in the table of docs/numerics.md
   std::string name;          // what is claimed, in a few words
   std::uint64_t input_cost;  // how many of the cheapest check's inputs take the time of one of this
   CheckResult (*run)(CheckContext&);

@@ -54,9 +54,9 @@ OUTLINE float2 through_tree_one(global const AxisRay *in, global const KdNode *n
   Ray ray = load_ray(in->origin, in->direction);
   Hit hit = {INFINITY, HIT_NONE, 0, 0, 0};
   kdtree_closest(nodes, blocks, shapes, 0, ray, &hit);
-  uint faults = 0;
-  bool occluded = kdtree_occluded(nodes, blocks, shapes, 0, ray, INFINITY, &faults);
-  return (float2)(hit.t, occluded && faults == 0 && hit.faults == 0);
+  uint diagnostics = 0;
+  bool occluded = kdtree_occluded(nodes, blocks, shapes, 0, ray, INFINITY, &diagnostics);
+  return (float2)(hit.t, occluded && diagnostics == 0 && hit.diagnostics == 0);
 }
 kernel void through_tree(global const AxisRay *in, global float2 *out, uint count, global const KdNode *nodes,
                          global const TriangleBlock *blocks, global const Shape *shapes) {
@@ -150,7 +150,7 @@ SlabInput slab_input(InputRandom& random, std::uint64_t index) {
 }
 
 /// Whether the ray meets the box made wider by `margin`; in double, with division only where it is allowed.
-bool meets_box(const SlabInput& in, double margin) {
+bool hits_box(const SlabInput& in, double margin) {
   double enter = 0, leave = INFINITY;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = in.origin[axis], d = in.direction[axis];
@@ -186,8 +186,8 @@ CheckResult slab_test(CheckContext& context) {
         farthest += in.extent;
         const bool node = lanes & 2u, block = lanes & 0x200u;
         if ((lanes & ~0x303u) != 0 || node != block) return 1;
-        if (meets_box(in, 4 * 0x1p-24 * farthest)) return node ? 0 : 1;
-        return node && !meets_box(in, 20 * 0x1p-24 * (farthest + largest)) ? 1 : 0;
+        if (hits_box(in, 4 * 0x1p-24 * farthest)) return node ? 0 : 1;
+        return node && !hits_box(in, 20 * 0x1p-24 * (farthest + largest)) ? 1 : 0;
       });
 }
 
@@ -228,7 +228,7 @@ Scene flat_boxes() {
   return scene;
 }
 
-std::vector<Rectangle> rectangles(const World& world) {
+std::vector<Rectangle> rectangles(const FlatScene& world) {
   std::vector<Rectangle> all;
   // Two triangles each.
   for (std::size_t i = 0; i + 1 < world.tree.triangles.size(); i += 2) {
@@ -268,7 +268,7 @@ AxisRay axis_ray(InputRandom& random, std::uint64_t) {
 /// difference, a product, two sums, two more of the weights, their inverse and the product with it.
 /// Rectangles along the ray are not met.
 CheckResult boxes_in_tree(CheckContext& context) {
-  const World world = build_world(flat_boxes());
+  const FlatScene world = flatten_scene(flat_boxes());
   const std::vector<Rectangle> faces = rectangles(world);
   const KdTree tree = build_kdtree(world.tree, context.threads);
   const cl::Buffer nodes = context.device.upload(tree.nodes, "tree nodes");

@@ -1,4 +1,4 @@
-// Hard case 5: needles, tiny, degenerate and duplicate triangles.
+// Hard case 5: slivers, tiny, degenerate and duplicate triangles.
 #include "selftest/stability_checks.hpp"
 #include "selftest/triangle_pairs.hpp"
 
@@ -14,7 +14,7 @@ Vec3 rounded(Vec3 p) {
 }
 
 /// A triangle with edges of `size` and `size` times `ratio`, or with three long edges and that height.
-TreeTriangle needle(InputRandom& random, Vec3 center, double size, double ratio) {
+TreeTriangle sliver(InputRandom& random, Vec3 center, double size, double ratio) {
   const Vec3 along = random.direction();
   const Vec3 across = normalize(cross(along, random.direction()));
   const Vec3 a = center - along * (0.5 * size), b = center + along * (0.5 * size);
@@ -68,8 +68,8 @@ Debris make_debris(std::uint32_t seed) {
     const bool degenerate = i % 3 == 0;
     debris.degenerate_count += 2 * degenerate;
     debris.mesh.push_back(degenerate   ? without_area(random)
-                          : i % 3 == 1 ? needle(random, in_cube(random, 1), 1, random.scale(-6, 0))
-                                       : needle(random, in_cube(random, 1e-9), 1e-9, random.scale(-2, 0)));
+                          : i % 3 == 1 ? sliver(random, in_cube(random, 1), 1, random.scale(-6, 0))
+                                       : sliver(random, in_cube(random, 1e-9), 1e-9, random.scale(-2, 0)));
     debris.degenerate.push_back(degenerate);
   }
   for (int i = 0; i < 1200; ++i) {
@@ -111,7 +111,7 @@ CheckResult tiny_met(CheckContext& context) {
   const auto aimed_pair = [](InputRandom& random, std::uint64_t) {
     const double size = random.scale(-10, 3);
     const Vec3 center = in_cube(random, size);
-    TrianglePair pair{{}, {}, needle(random, center, size, random.uniform(0.2, 1))};
+    TrianglePair pair{{}, {}, sliver(random, center, size, random.uniform(0.2, 1))};
     const Vec3 a = triangle_vertex(pair.triangle, 0), b = triangle_vertex(pair.triangle, 1),
                c = triangle_vertex(pair.triangle, 2);
     const double s = random.uniform(0.1, 0.8), t = random.uniform(0.1, 0.9 - s);
@@ -134,7 +134,7 @@ CheckResult tiny_met(CheckContext& context) {
       });
 }
 
-/// The normal of a needle is a small difference of large products. Where the sine between two edges is above
+/// The normal of a sliver is a small difference of large products. Where the sine between two edges is above
 /// 0.1 they are rounded as they come: six times 2^-24 over 0.1 and a little for what follows; below, hardly
 /// at all.
 CheckResult normals(CheckContext& context) {
@@ -156,7 +156,7 @@ kernel void normals(global const float *triangles, global float *out, uint count
       context, 4e-6, "absolute",
       [](InputRandom& random, std::uint64_t) {
         const double size = random.scale(-10, 10);
-        return needle(random, in_cube(random, 0.5 * size), size, random.scale(-6, 0));
+        return sliver(random, in_cube(random, 0.5 * size), size, random.scale(-6, 0));
       },
       [&](const auto& triangles) { return kernel.run<Normal>(triangles); },
       [](const TreeTriangle& triangle, const Normal& found) {
@@ -169,10 +169,10 @@ kernel void normals(global const float *triangles, global float *out, uint count
 
 }  // namespace
 
-std::vector<Check> needle_checks() {
+std::vector<Check> sliver_checks() {
   return {{5, "triangles without area are skipped, none is met", 1, degenerate_skipped},
           {5, "triangles of area 1e-20 are met", 2, tiny_met},
-          {5, "normals of needles 1 : 10^6", 1, normals}};
+          {5, "normals of slivers 1 : 10^6", 1, normals}};
 }
 
 }  // namespace causticl

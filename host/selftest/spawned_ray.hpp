@@ -8,11 +8,11 @@ namespace causticl {
 
 /// What the device says of one.
 struct SpawnedRay {
-  float t;          // of the first hit; infinity if there was none
+  float t;          // of the primary hit; infinity if there was none
   float again;      // t of the next hit of the spawned ray; infinity if there is none
   float error;      // Surface.error
   float same_face;  // triangles: 1 if both hits are on the same one
-  float4 position, normal, direction, origin;  // of the first hit; of the spawned ray
+  float4 position, normal, direction, origin;  // of the primary hit; of the spawned ray
 
   bool spawned() const { return std::isfinite(t); }
   /// The cosine between the spawned ray and the normal.

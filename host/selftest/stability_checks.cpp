@@ -9,7 +9,7 @@ std::vector<Check> stability_checks() {
   std::vector<Check> all;
   for (const auto& group : {sphere_checks(),
                             triangle_checks(),
-                            needle_checks(),
+                            sliver_checks(),
                             slab_checks(),
                             kdtree_checks(),
                             spawned_ray_checks(),

@@ -13,7 +13,7 @@ std::vector<Check> stability_checks();
 
 std::vector<Check> sphere_checks();               // hard cases 1 and 2
 std::vector<Check> triangle_checks();             // hard cases 3 and 4
-std::vector<Check> needle_checks();               // hard case 5
+std::vector<Check> sliver_checks();               // hard case 5
 std::vector<Check> slab_checks();                 // hard case 6
 std::vector<Check> kdtree_checks();               // hard case 7
 std::vector<Check> spawned_ray_checks();          // hard case 8
@@ -34,7 +34,7 @@ std::vector<Check> progressive_radius_checks();   // hard cases 17 and 18
 std::vector<Check> photon_grid_checks();          // hard case 19
 std::vector<Check> execution_order_checks();      // hard case 20
 std::vector<Check> random_number_checks();        // hard case 21
-std::vector<Check> path_number_checks();          // hard case 21: numbers of camera paths
+std::vector<Check> path_number_checks();          // hard case 21: sample dimensions of camera paths
 std::vector<Check> non_finite_checks();           // hard case 22
 std::vector<Check> arithmetic_checks();           // hard case 24
 std::vector<Check> bent_normal_checks();          // hard case 25

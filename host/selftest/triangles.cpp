@@ -117,7 +117,7 @@ CheckResult no_shadow_ray_escapes(CheckContext& context) {
   return run_random_check(
       context, 0, "", [&](InputRandom& random, std::uint64_t) { return ray_from_inside(closed, random); },
       [&](const auto& rays) { return meshes.occluded(rays); },
-      [](const MeshRay&, std::uint32_t met) { return met == 1 ? 0.0 : 1.0; });
+      [](const MeshRay&, std::uint32_t did_hit) { return did_hit == 1 ? 0.0 : 1.0; });
 }
 
 /// How many rays get out of closed meshes by each of the two tests, and their times, taken in turn.

@@ -36,8 +36,10 @@ void plan(StudySession& session) {
     if (scene.renderer.integrator == Integrator::sppm) throw;
     sppm_fault = error.what();
   }
-  const KnobContext context{scene, document, study.first_radius, find_device(session.request.device).fp64};
-  plan_settings(study, wanted_knobs(session.request.study.knobs), context, session.own_words, sppm_fault);
+  const ParameterContext context{scene, document, study.first_radius,
+                                 find_device(session.request.device).fp64};
+  plan_settings(study, wanted_parameters(session.request.study.parameters), context, session.own_words,
+                sppm_fault);
 }
 
 /// One run of `seconds` of passes, or to the point of the budget where `end` is; false if it was interrupted.
@@ -98,11 +100,12 @@ bool measure_short_runs(StudySession& session) {
   return true;
 }
 
-/// The best values of all knobs together, which may beat each alone, or may not.
+/// The best values of all parameters together, which may beat each alone, or may not.
 bool measure_combined(StudySession& session) {
   Study& study = session.study;
-  const auto known = std::find_if(study.settings.begin(), study.settings.end(),
-                                  [](const StudySetting& setting) { return setting.knob == "combined"; });
+  const auto known =
+      std::find_if(study.settings.begin(), study.settings.end(),
+                   [](const StudySetting& setting) { return setting.parameter == "combined"; });
   if (known != study.settings.end()) return true;
   const auto combined = combined_setting(study, analyse(study));
   if (!combined || session.spent() + 2 * study.run_seconds > session.budget.long_runs_end()) return true;

@@ -1,4 +1,5 @@
-// `causticl study`: what accuracy costs in time on one scene, for every knob that trades one for the other.
+// `causticl study`: what accuracy costs in time on one scene, for every parameter that trades one for the
+// other.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,12 @@ struct RenderSetup {
 
 /// What `study` is told besides the scene and the device.
 struct StudyOptions {
-  std::vector<std::string> knobs;  // names; empty: all
-  double budget = 300;             // seconds in all
-  int seeds = 3;                   // renders of a setting, as far as the budget allows
-  std::string folder;              // -o; empty: the scene's name with -study in the working directory
-  std::string reference;           // a picture to measure errors against; empty: the study makes its own
-  bool restart = false;            // throw away what the folder holds
+  std::vector<std::string> parameters;  // names; empty: all
+  double budget = 300;                  // seconds in all
+  int seeds = 3;                        // renders of a setting, as far as the budget allows
+  std::string folder;                   // -o; empty: the scene's name with -study in the working directory
+  std::string reference;                // a picture to measure errors against; empty: the study makes its own
+  bool restart = false;                 // throw away what the folder holds
 };
 
 /// A study as the command line describes it.

@@ -59,7 +59,8 @@ void make_curve(const Study& study, SettingAnalysis& result) {
   std::vector<StudySample> ends, beyond;
   std::size_t short_runs = 0;
   for (const StudyRun& run : study.runs) {
-    if (run.knob != result.setting.knob || run.value != result.setting.value || run.samples.empty()) continue;
+    if (run.parameter != result.setting.parameter || run.value != result.setting.value || run.samples.empty())
+      continue;
     if (run.is_long) {
       beyond.insert(beyond.end(), run.samples.begin(), run.samples.end());
       continue;
@@ -94,9 +95,10 @@ void measure_slope(const Study& study, SettingAnalysis& result) {
     if (!point.limited && point.passes >= first) points.emplace_back(point.passes, point.mse);
   if (points.size() < 3) return;
   result.slope = log_slope(points);
-  std::vector<double> of_seeds;
+  std::vector<double> of_current_paths;
   for (const StudyRun& run : study.runs) {
-    if (run.knob != result.setting.knob || run.value != result.setting.value || run.is_long) continue;
+    if (run.parameter != result.setting.parameter || run.value != result.setting.value || run.is_long)
+      continue;
     points.clear();
     for (const auto& sample : run.samples) {
       const double mse = sample.relative_mse - study.reference->relative_mse;
@@ -104,16 +106,17 @@ void measure_slope(const Study& study, SettingAnalysis& result) {
           std::isfinite(mse))
         points.emplace_back(static_cast<double>(sample.passes), mse);
     }
-    if (points.size() >= 3) of_seeds.push_back(log_slope(points));
+    if (points.size() >= 3) of_current_paths.push_back(log_slope(points));
   }
-  result.slope_error = spread_of(of_seeds).error;
+  result.slope_error = spread_of(of_current_paths).error;
 }
 
 void add_costs(const Study& study, SettingAnalysis& result) {
   std::map<std::string, double> milliseconds;
   double passes = 0, setup = 0, runs = 0;
   for (const StudyRun& run : study.runs) {
-    if (run.knob != result.setting.knob || run.value != result.setting.value || run.samples.empty()) continue;
+    if (run.parameter != result.setting.parameter || run.value != result.setting.value || run.samples.empty())
+      continue;
     for (const auto& [kernel, time] : run.kernel_milliseconds) milliseconds[kernel] += time;
     passes += static_cast<double>(run.samples.back().passes);
     setup += run.setup_seconds;

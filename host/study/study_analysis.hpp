@@ -83,8 +83,8 @@ Reach reach_of(const std::vector<ErrorAt>& curve, double target, double steepest
 /// The least-squares slope of log y over log x, of two points or more.
 double log_slope(const std::vector<std::pair<double, double>>& points);
 
-/// The best values of the knobs of SPPM that beat the scene's own by more than their noise, together; none
-/// where fewer than two do.
+/// The best values of the parameters of SPPM that beat the scene's own by more than their noise, together;
+/// none where fewer than two do.
 std::optional<StudySetting> combined_setting(const Study& study, const StudyAnalysis& analysis);
 
 /// The command line that renders a setting for so many passes; a word with special characters is quoted.

@@ -25,28 +25,28 @@ std::string bytes_of(const std::string& file) {
   return bytes;
 }
 
-std::string fingerprint_of(const std::map<std::string, std::string>& sources) {
+std::string hash_of(const std::map<std::string, std::string>& sources) {
   std::string hash;
-  for (const auto& [name, text] : sources) hash = fingerprint(text, fingerprint(name, hash));
+  for (const auto& [name, text] : sources) hash = content_hash(text, content_hash(name, hash));
   return hash;
 }
 
 /// Of every kernel file: those of --kernel-dir, or those in the binary.
-std::string kernels_fingerprint(const std::string& kernel_dir) {
+std::string kernels_hash(const std::string& kernel_dir) {
   std::map<std::string, std::string> sources;
-  if (kernel_dir.empty()) return fingerprint_of(embedded_kernel_sources());
+  if (kernel_dir.empty()) return hash_of(embedded_kernel_sources());
   std::error_code error;
   for (const auto& entry : fs::recursive_directory_iterator(kernel_dir, error)) {
     const std::string extension = entry.path().extension().string();
     if (extension == ".cl" || extension == ".h")
       sources[fs::relative(entry.path(), kernel_dir).string()] = bytes_of(entry.path().string());
   }
-  return fingerprint_of(sources);
+  return hash_of(sources);
 }
 
 }  // namespace
 
-std::string fingerprint(const std::string& bytes, const std::string& before) {
+std::string content_hash(const std::string& bytes, const std::string& before) {
   // The length before the rest keeps "ab" after "c" apart from "b" after "ca".
   const std::string all = std::to_string(before.size()) + ":" + before + bytes;
   const XXH128_hash_t hash = XXH3_128bits(all.data(), all.size());
@@ -56,11 +56,11 @@ std::string fingerprint(const std::string& bytes, const std::string& before) {
   return text;
 }
 
-std::string file_fingerprint(const std::string& file) { return fingerprint(bytes_of(file)); }
+std::string file_hash(const std::string& file) { return content_hash(bytes_of(file)); }
 
-std::string scene_fingerprint(const Scene& scene) {
-  std::string hash = file_fingerprint(scene.file);
-  for (const auto& file : scene.assets) hash = fingerprint(bytes_of(file), fingerprint(file, hash));
+std::string scene_hash_of(const Scene& scene) {
+  std::string hash = file_hash(scene.file);
+  for (const auto& file : scene.assets) hash = content_hash(bytes_of(file), content_hash(file, hash));
   return hash;
 }
 
@@ -70,11 +70,11 @@ std::vector<std::string> deciding_options(const StudyRequest& request) {
     words.push_back("--integrator");
     words.push_back(*request.scene_options.integrator == Integrator::pt ? "pt" : "sppm");
   }
-  std::vector<std::string> knobs = request.study.knobs;
-  std::sort(knobs.begin(), knobs.end());
-  for (const auto& knob : knobs) {
+  std::vector<std::string> parameters = request.study.parameters;
+  std::sort(parameters.begin(), parameters.end());
+  for (const auto& parameter : parameters) {
     words.push_back("--knobs");
-    words.push_back(knob);
+    words.push_back(parameter);
   }
   words.push_back("--seeds");
   words.push_back(std::to_string(request.study.seeds));
@@ -82,7 +82,7 @@ std::vector<std::string> deciding_options(const StudyRequest& request) {
     words.push_back("--kernel-dir");
     words.push_back(request.kernel_dir);
   }
-  words.push_back("kernels:" + kernels_fingerprint(request.kernel_dir));
+  words.push_back("kernels:" + kernels_hash(request.kernel_dir));
   return words;
 }
 

@@ -9,13 +9,13 @@
 namespace causticl {
 
 /// A hash of `bytes` after what has the hash `before`, as text.
-std::string fingerprint(const std::string& bytes, const std::string& before = "");
+std::string content_hash(const std::string& bytes, const std::string& before = "");
 
 /// The hash of a file's bytes. Throws UserError.
-std::string file_fingerprint(const std::string& file);
+std::string file_hash(const std::string& file);
 
 /// The hash of the scene's file and of every file that it names, names included.
-std::string scene_fingerprint(const Scene& scene);
+std::string scene_hash_of(const Scene& scene);
 
 /// The options of `study` that decide what is rendered, as words of the command line, and the hash of the
 /// kernels' sources. Not those that only decide for how long and what is printed.

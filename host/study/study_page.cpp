@@ -47,7 +47,7 @@ Json json_of(const SettingAnalysis& setting) {
   for (const auto& [kernel, time] : setting.kernel_milliseconds)
     kernels.push_back({{"kernel", kernel}, {"milliseconds", time}});
   return {{"id", setting.setting.id()},
-          {"knob", setting.setting.knob},
+          {"knob", setting.setting.parameter},
           {"value", setting.setting.value},
           {"path_traced", setting.setting.path_traced},
           {"curve", curve},
@@ -82,24 +82,25 @@ Json json_of(const StudyAnalysis& analysis) {
   return {{"settings", settings}, {"pareto", fronts}, {"recommendations", recommendations}};
 }
 
-Json table_of_knobs(const Study& study) {
-  Json knobs = Json::array();
-  for (const Knob& knob : study_knobs())
-    if (study.bases.contains(knob.name))
-      knobs.push_back({{"name", knob.name},
-                       {"title", knob.title},
-                       {"unit", knob.unit},
-                       {"meaning", knob.meaning},
-                       {"own", study.own_values.at(knob.name)},
-                       {"base", study.bases.at(knob.name)}});
+Json table_of_parameters(const Study& study) {
+  Json parameters = Json::array();
+  for (const StudyParameter& parameter : study_parameters())
+    if (study.bases.contains(parameter.name))
+      parameters.push_back({{"name", parameter.name},
+                            {"title", parameter.title},
+                            {"unit", parameter.unit},
+                            {"meaning", parameter.meaning},
+                            {"own", study.own_values.at(parameter.name)},
+                            {"base", study.bases.at(parameter.name)}});
   if (study.bases.contains("combined"))
-    knobs.push_back({{"name", "combined"},
-                     {"title", "The best values together"},
-                     {"unit", ""},
-                     {"meaning", "Each value that beat the scene's own by more than its noise, all at once."},
-                     {"own", "as the scene says"},
-                     {"base", study.bases.at("combined")}});
-  return knobs;
+    parameters.push_back(
+        {{"name", "combined"},
+         {"title", "The best values together"},
+         {"unit", ""},
+         {"meaning", "Each value that beat the scene's own by more than its noise, all at once."},
+         {"own", "as the scene says"},
+         {"base", study.bases.at("combined")}});
+  return parameters;
 }
 
 void replace(std::string& text, const std::string& mark, const std::string& by) {
@@ -121,7 +122,7 @@ std::string study_page_data(const Study& study, const StudyAnalysis& analysis, c
   }
   const Json data = {{"study", measured},
                      {"analysis", json_of(analysis)},
-                     {"knobs", table_of_knobs(study)},
+                     {"knobs", table_of_parameters(study)},
                      {"targets", study_targets},
                      {"insets", Json::parse(insets)}};
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);

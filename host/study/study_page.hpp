@@ -17,7 +17,7 @@ extern const char* const study_page_js;
 /// Writes study.html into `folder`, with the pictures that it holds. Throws UserError.
 void write_study_page(const std::string& folder, const Study& study, const StudyAnalysis& analysis);
 
-/// All numbers of the page as one JSON object: the study, its analysis and the table of knobs.
+/// All numbers of the page as one JSON object: the study, its analysis and the table of parameters.
 std::string study_page_data(const Study& study, const StudyAnalysis& analysis, const std::string& insets);
 
 /// What the study recommends, and where the page is.

@@ -10,7 +10,7 @@
 namespace causticl {
 namespace {
 
-using Values = std::vector<KnobValue>;
+using Values = std::vector<ParameterValue>;
 
 /// `key` set by -D to each of the values that is not the scene's own.
 Values overrides(const std::string& key, const std::string& own, const std::vector<std::string>& values) {
@@ -45,16 +45,16 @@ void find_filters(const JsonValue& value, const std::string& path, bool in_mater
     find_filters(value.items[i], prefix + std::to_string(i), in_material, keys);
 }
 
-bool has_bilinear(const KnobContext& context) {
+bool has_bilinear(const ParameterContext& context) {
   return std::any_of(context.scene.textures.begin(), context.scene.textures.end(),
                      [](const TextureSpec& texture) { return texture.bilinear; });
 }
 
-Values filters(const KnobContext& context) {
+Values filters(const ParameterContext& context) {
   std::vector<std::string> keys;
   find_filters(context.document.root, "", false, keys);
   if (keys.empty()) return {};
-  KnobValue value{has_bilinear(context) ? "nearest" : "bilinear", {}};
+  ParameterValue value{has_bilinear(context) ? "nearest" : "bilinear", {}};
   for (const auto& key : keys) {
     value.words.push_back("-D");
     value.words.push_back(key + "=" + value.label);
@@ -78,9 +78,9 @@ std::string short_number(double value) {
   return text;
 }
 
-const std::vector<Knob>& study_knobs() {
-  using Context = const KnobContext&;
-  static const std::vector<Knob> knobs{
+const std::vector<StudyParameter>& study_parameters() {
+  using Context = const ParameterContext&;
+  static const std::vector<StudyParameter> parameters{
       {"integrator", "Integrator", "",
        "Photon mapping (sppm) finds light that comes through glass and mirrors quickly but blurs it; path "
        "tracing (pt) blurs nothing but is noisy where small lamps shine through glass.",
@@ -128,7 +128,7 @@ const std::vector<Knob>& study_knobs() {
          return overrides("renderer.boundary_correction", name_of(c.scene.renderer.boundary_correction),
                           {"true", "false"});
        }},
-      {"guided_photons", "Guided photons", "",
+      {"guided_photons", "Metropolis photons", "",
        "Photons that land where the camera sees are copied with slight changes: more of them where few come "
        "so far, in place of some that could have been traced anew.",
        true, [](Context c) { return std::string(name_of(c.scene.renderer.guided_photons.value_or(false))); },
@@ -216,25 +216,25 @@ const std::vector<Knob>& study_knobs() {
        "says.",
        false, [](Context c) { return std::string(has_bilinear(c) ? "bilinear" : "nearest"); }, filters},
   };
-  return knobs;
+  return parameters;
 }
 
-std::vector<const Knob*> wanted_knobs(const std::vector<std::string>& names) {
+std::vector<const StudyParameter*> wanted_parameters(const std::vector<std::string>& names) {
   std::string known;
   std::vector<std::string> all;
-  for (const Knob& knob : study_knobs()) {
-    known += (known.empty() ? "" : ", ") + std::string(knob.name);
-    all.emplace_back(knob.name);
+  for (const StudyParameter& parameter : study_parameters()) {
+    known += (known.empty() ? "" : ", ") + std::string(parameter.name);
+    all.emplace_back(parameter.name);
   }
   for (const auto& name : names)
-    if (std::none_of(study_knobs().begin(), study_knobs().end(),
-                     [&](const Knob& knob) { return name == knob.name; }))
-      throw UserError("--knobs: there is no knob " + json_quote(name) + "; expected some of " + known +
-                      did_you_mean(name, all));
-  std::vector<const Knob*> wanted;
-  for (const Knob& knob : study_knobs())
-    if (names.empty() || std::find(names.begin(), names.end(), knob.name) != names.end())
-      wanted.push_back(&knob);
+    if (std::none_of(study_parameters().begin(), study_parameters().end(),
+                     [&](const StudyParameter& parameter) { return name == parameter.name; }))
+      throw UserError("--parameters: there is no parameter " + json_quote(name) + "; expected some of " +
+                      known + did_you_mean(name, all));
+  std::vector<const StudyParameter*> wanted;
+  for (const StudyParameter& parameter : study_parameters())
+    if (names.empty() || std::find(names.begin(), names.end(), parameter.name) != names.end())
+      wanted.push_back(&parameter);
   return wanted;
 }
 

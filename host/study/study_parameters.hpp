@@ -1,4 +1,4 @@
-// What trades accuracy for time: the table of knobs that `causticl study` turns.
+// What trades accuracy for time: the table of parameters that `causticl study` turns.
 #pragma once
 
 #include <functional>
@@ -10,36 +10,37 @@
 
 namespace causticl {
 
-/// What the values of a knob may depend on.
-struct KnobContext {
+/// What the values of a parameter may depend on.
+struct ParameterContext {
   const Scene& scene;            // as the user gave it
   const JsonDocument& document;  // the same before it was read
   double first_radius = 0;       // of SPPM, as the scene says or as chosen from it
   bool fp64 = false;             // the device has double precision
 };
 
-/// One position of a knob: what `causticl render` is told for it.
-struct KnobValue {
+/// One position of a parameter: what `causticl render` is told for it.
+struct ParameterValue {
   std::string label;
   std::vector<std::string> words;  // of the command line
 };
 
-struct Knob {
-  const char* name;                                      // as --knobs takes it
-  const char* title;                                     // of its plot
-  const char* unit;                                      // of its values; empty: names
-  const char* meaning;                                   // one sentence for somebody who has not read a paper
-  bool sppm_only;                                        // path tracing has no such knob
-  std::string (*own)(const KnobContext&);                // the label of what the scene itself says
-  std::vector<KnobValue> (*others)(const KnobContext&);  // other values to try; empty: none make sense here
+struct StudyParameter {
+  const char* name;                             // as --parameters takes it
+  const char* title;                            // of its plot
+  const char* unit;                             // of its values; empty: names
+  const char* meaning;                          // one sentence for somebody who has not read a paper
+  bool sppm_only;                               // path tracing has no such parameter
+  std::string (*own)(const ParameterContext&);  // the label of what the scene itself says
+  std::vector<ParameterValue> (*others)(
+      const ParameterContext&);  // other values to try; empty: none make sense here
 };
 
-/// Every knob, the most telling first: where time is short, those at the end are left out.
-const std::vector<Knob>& study_knobs();
+/// Every parameter, the most telling first: where time is short, those at the end are left out.
+const std::vector<StudyParameter>& study_parameters();
 
 /// Those that `names` lists, in the order of the table; all where it is empty. Throws UserError for a name
 /// that is none.
-std::vector<const Knob*> wanted_knobs(const std::vector<std::string>& names);
+std::vector<const StudyParameter*> wanted_parameters(const std::vector<std::string>& names);
 
 /// Up to four significant digits, as the command line and plots show a number.
 std::string short_number(double value);

@@ -14,29 +14,30 @@ std::vector<std::string> merged_words(const std::vector<std::string>& words,
   return result;
 }
 
-void plan_settings(Study& study, const std::vector<const Knob*>& knobs, const KnobContext& context,
-                   const std::vector<std::string>& own_words, const std::string& sppm_fault) {
+void plan_settings(Study& study, const std::vector<const StudyParameter*>& parameters,
+                   const ParameterContext& context, const std::vector<std::string>& own_words,
+                   const std::string& sppm_fault) {
   const bool own_pt = context.scene.renderer.integrator == Integrator::pt;
   const StudySetting own{"scene", "", own_words, own_pt};
   const StudySetting sppm{"integrator", "sppm", merged_words(own_words, {"--integrator", "sppm"}), false};
   study.settings = {own};
   const auto add = [&](const StudySetting& setting) {
-    if (!study.setting(setting.knob, setting.value)) study.settings.push_back(setting);
+    if (!study.setting(setting.parameter, setting.value)) study.settings.push_back(setting);
   };
-  for (const Knob* knob : knobs) {
-    const std::string name = knob->name;
-    if (knob->sppm_only && !sppm_fault.empty()) {
+  for (const StudyParameter* parameter : parameters) {
+    const std::string name = parameter->name;
+    if (parameter->sppm_only && !sppm_fault.empty()) {
       study.left_out.push_back(name + ": photon mapping cannot render this scene: " + sppm_fault);
       continue;
     }
-    const auto others = knob->others(context);
+    const auto others = parameter->others(context);
     if (others.empty()) {
       study.left_out.push_back(name + ": there is nothing to choose in this scene or on this device");
       continue;
     }
-    const StudySetting base = knob->sppm_only && own_pt ? sppm : own;
+    const StudySetting base = parameter->sppm_only && own_pt ? sppm : own;
     add(base);
-    for (const KnobValue& value : others) {
+    for (const ParameterValue& value : others) {
       if (name == "integrator" && value.label == "sppm" && !sppm_fault.empty()) {
         study.left_out.push_back("integrator=sppm: " + sppm_fault);
         continue;
@@ -44,7 +45,7 @@ void plan_settings(Study& study, const std::vector<const Knob*>& knobs, const Kn
       add({name, value.label, merged_words(base.words, value.words),
            name == "integrator" ? value.label == "pt" : base.path_traced});
     }
-    study.own_values[name] = knob->own(context);
+    study.own_values[name] = parameter->own(context);
     study.bases[name] = base.id();
   }
 }

@@ -18,11 +18,12 @@ struct StudyBudget {
   double long_runs_end() const { return 0.96 * seconds; }
 };
 
-/// Fills in the settings, the knobs' own values and what each is compared with; the scene as it is comes
+/// Fills in the settings, the parameters' own values and what each is compared with; the scene as it is comes
 /// first. `own_words` are those of an --integrator of the user. `sppm_fault` says why photon mapping cannot
 /// render the scene; empty where it can.
-void plan_settings(Study& study, const std::vector<const Knob*>& knobs, const KnobContext& context,
-                   const std::vector<std::string>& own_words, const std::string& sppm_fault);
+void plan_settings(Study& study, const std::vector<const StudyParameter*>& parameters,
+                   const ParameterContext& context, const std::vector<std::string>& own_words,
+                   const std::string& sppm_fault);
 
 /// How long each short run takes and with how many seeds, so that all settings fit into `seconds`: at least
 /// three passes of `pass_seconds` each, and two seeds. Settings at the end of the list are dropped where even

@@ -67,7 +67,7 @@ StudySample sample_of(const Json& json) {
 
 StudyRun run_of(const Json& json) {
   StudyRun run;
-  run.knob = json.at("knob").get<std::string>();
+  run.parameter = json.at("knob").get<std::string>();
   run.value = json.at("value").get<std::string>();
   run.seed = whole<std::uint32_t>(json, "seed");
   run.is_long = json.at("long").get<bool>();
@@ -90,19 +90,20 @@ Words words_of(const Json& json, const Words& known) {
   return words;
 }
 
-bool is_knob(const std::string& name) {
+bool is_parameter(const std::string& name) {
   return name == "scene" || name == "combined" ||
-         std::any_of(study_knobs().begin(), study_knobs().end(),
-                     [&](const Knob& knob) { return name == knob.name; });
+         std::any_of(study_parameters().begin(), study_parameters().end(),
+                     [&](const StudyParameter& parameter) { return name == parameter.name; });
 }
 
 /// Throws where the parts of a study do not belong together.
 void check_parts(const Study& study) {
   for (const auto& setting : study.settings)
-    require(is_knob(setting.knob), "a setting is of an unknown knob");
-  for (const auto& run : study.runs) require(is_knob(run.knob), "a run is of an unknown knob");
-  for (const auto& [knob, base] : study.bases)
-    require(knob == "combined" || study.own_values.contains(knob), "a knob lacks the scene's own value");
+    require(is_parameter(setting.parameter), "a setting is of an unknown knob");
+  for (const auto& run : study.runs) require(is_parameter(run.parameter), "a run is of an unknown knob");
+  for (const auto& [parameter, base] : study.bases)
+    require(parameter == "combined" || study.own_values.contains(parameter),
+            "a knob lacks the scene's own value");
   require(study.runs.empty() || study.reference, "there are runs without a reference");
   require(study.runs.empty() || !study.settings.empty(), "there are runs without a setting");
 }

@@ -97,13 +97,13 @@ std::vector<Recommendation> recommend(const Study& study, const StudyAnalysis& a
 std::optional<StudySetting> combined_setting(const Study& study, const StudyAnalysis& analysis) {
   StudySetting combined{"combined", "", {}, false};
   int improving = 0;
-  for (const Knob& knob : study_knobs()) {
-    if (!knob.sppm_only || !study.bases.contains(knob.name)) continue;
+  for (const StudyParameter& parameter : study_parameters()) {
+    if (!parameter.sppm_only || !study.bases.contains(parameter.name)) continue;
     const SettingAnalysis *best = nullptr, *base = nullptr;
     for (const auto& setting : analysis.settings) {
       if (!setting.equal_time) continue;
-      if (setting.setting.id() == study.bases.at(knob.name)) base = &setting;
-      if (setting.setting.knob == knob.name &&
+      if (setting.setting.id() == study.bases.at(parameter.name)) base = &setting;
+      if (setting.setting.parameter == parameter.name &&
           (!best || setting.equal_time->error_90 < best->equal_time->error_90))
         best = &setting;
     }

@@ -67,7 +67,7 @@ MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t 
   }
 
   MeasuredRender result;
-  result.run.knob = setting.knob;
+  result.run.parameter = setting.parameter;
   result.run.value = setting.value;
   result.run.seed = seed;
   scene.renderer.passes = scene.renderer.samples = endless;

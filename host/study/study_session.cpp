@@ -37,12 +37,13 @@ std::pair<int, int> default_size(const Scene& scene) {
 
 /// What a study of these options is, before anything is measured.
 Study new_study(const StudyRequest& request) {
-  wanted_knobs(request.study.knobs);  // a mistyped name should not take the seconds that scenes can take
+  wanted_parameters(
+      request.study.parameters);  // a mistyped name should not take the seconds that scenes can take
   const Scene scene = load_scene(request.scene, request.scene_options);
   const DeviceInfo device = find_device(request.device);
   Study study;
   study.scene = request.scene;
-  study.scene_hash = scene_fingerprint(scene);
+  study.scene_hash = scene_hash_of(scene);
   study.version = CAUSTICL_VERSION;
   study.device = device.name + " (" + device.platform_name + ", " + device.driver + ")";
   std::tie(study.width, study.height) =
@@ -56,7 +57,7 @@ Study new_study(const StudyRequest& request) {
   study.seed = request.seed;
   study.threads = request.threads;
   const std::string& reference = request.study.reference;
-  if (!reference.empty()) study.given_reference = reference + " " + file_fingerprint(reference);
+  if (!reference.empty()) study.given_reference = reference + " " + file_hash(reference);
   study.date = today();
   return study;
 }

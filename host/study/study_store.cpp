@@ -46,7 +46,7 @@ Json json_of(const StudySample& sample) {
 Json json_of(const StudyRun& run) {
   Json samples = Json::array();
   for (const auto& sample : run.samples) samples.push_back(json_of(sample));
-  return {{"knob", run.knob},
+  return {{"knob", run.parameter},
           {"value", run.value},
           {"seed", run.seed},
           {"long", run.is_long},
@@ -63,15 +63,15 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-const StudySetting* Study::setting(const std::string& knob, const std::string& value) const {
+const StudySetting* Study::setting(const std::string& parameter, const std::string& value) const {
   for (const auto& candidate : settings)
-    if (candidate.knob == knob && candidate.value == value) return &candidate;
+    if (candidate.parameter == parameter && candidate.value == value) return &candidate;
   return nullptr;
 }
 
 const StudyRun* Study::run(const StudySetting& of, std::uint32_t with_seed, bool is_long) const {
   for (const auto& candidate : runs)
-    if (candidate.knob == of.knob && candidate.value == of.value && candidate.seed == with_seed &&
+    if (candidate.parameter == of.parameter && candidate.value == of.value && candidate.seed == with_seed &&
         candidate.is_long == is_long)
       return &candidate;
   return nullptr;
@@ -82,8 +82,8 @@ std::string study_csv(const Study& study) {
   text << "knob,value,seed,long,passes,photons,seconds,relative_mse,relative_rmse,error_90,flip,mean\n";
   for (const auto& run : study.runs)
     for (const auto& sample : run.samples) {
-      text << quoted(run.knob) << "," << quoted(run.value) << "," << run.seed << "," << run.is_long << ","
-           << sample.passes << "," << sample.photons;
+      text << quoted(run.parameter) << "," << quoted(run.value) << "," << run.seed << "," << run.is_long
+           << "," << sample.passes << "," << sample.photons;
       for (const double value : {sample.seconds, sample.relative_mse, std::sqrt(sample.relative_mse),
                                  sample.error_90, sample.flip, sample.mean})
         text << "," << exact(value);
@@ -95,7 +95,7 @@ std::string study_csv(const Study& study) {
 std::string study_json(const Study& study) {
   Json settings = Json::array(), runs = Json::array(), reference = nullptr;
   for (const auto& setting : study.settings)
-    settings.push_back({{"knob", setting.knob},
+    settings.push_back({{"knob", setting.parameter},
                         {"value", setting.value},
                         {"words", setting.words},
                         {"path_traced", setting.path_traced}});

@@ -9,12 +9,12 @@
 
 namespace causticl {
 
-/// One position of one knob; all others are as the scene says.
+/// One position of one parameter; all others are as the scene says.
 struct StudySetting {
-  std::string knob, value;         // "scene", "" for the scene as it is
+  std::string parameter, value;    // "scene", "" for the scene as it is
   std::vector<std::string> words;  // of the command line, besides the scene and what the study was told
   bool path_traced = false;        // by the integrator pt, whose passes are samples
-  std::string id() const { return value.empty() ? knob : knob + "=" + value; }
+  std::string id() const { return value.empty() ? parameter : parameter + "=" + value; }
 };
 
 /// How far a render was from the reference after so many passes.
@@ -26,7 +26,7 @@ struct StudySample {
 
 /// One render: a setting and a seed, measured as it went.
 struct StudyRun {
-  std::string knob, value;
+  std::string parameter, value;
   std::uint32_t seed = 1;
   bool is_long = false;  // continued beyond the time that all settings get, to see how it goes on
   std::vector<StudySample> samples;
@@ -58,16 +58,16 @@ struct Study {
   double run_seconds = 0;   // passes of each render take this long; 0: not planned yet
   int seeds = 0;
   std::vector<StudySetting> settings;
-  std::map<std::string, std::string> own_values;  // of each knob, what the scene itself says
-  std::map<std::string, std::string> bases;       // of each knob, the id of the setting with its own value
-  std::vector<std::string> left_out;              // what did not fit or makes no sense here, and why
+  std::map<std::string, std::string> own_values;  // of each parameter, what the scene itself says
+  std::map<std::string, std::string> bases;  // of each parameter, the id of the setting with its own value
+  std::vector<std::string> left_out;         // what did not fit or makes no sense here, and why
 
   // What came of it.
   double spent_seconds = 0;  // of the budget
   std::optional<StudyReference> reference;
   std::vector<StudyRun> runs;
 
-  const StudySetting* setting(const std::string& knob, const std::string& value) const;
+  const StudySetting* setting(const std::string& parameter, const std::string& value) const;
   const StudyRun* run(const StudySetting& setting, std::uint32_t seed, bool is_long) const;
 };
 

@@ -44,7 +44,7 @@ struct LitRegion {
 /// The sphere that light from beyond the scene has to cover, all that is bounded in its midst. What infinite
 /// planes are outside of it is far to kernels (cl/lights/horizon.cl), which read it from the records of
 /// planes. Where nothing is bounded it lies about the camera, as large as its distance to the next plane.
-LitRegion lit_region(const Scene& scene, World& world) {
+LitRegion lit_region(const Scene& scene, FlatScene& world) {
   LitRegion region{scene_sphere(world.tree)};
   if (world.plane_count == 0 || !has_infinite_light(scene)) return region;
   const auto distance_to = [&](uint i, Vec3 point) {
@@ -121,7 +121,7 @@ Emitter environment_emitter(const Environment& environment, const LitRegion& reg
 
 /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
 /// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
-std::uint64_t share_numbers(World& world) {
+std::uint64_t share_numbers(FlatScene& world) {
   const auto power = [](const Emitter& light) {
     return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
            static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
@@ -142,7 +142,7 @@ std::uint64_t share_numbers(World& world) {
 
 }  // namespace
 
-void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world) {
+void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatScene& world) {
   const bool environment = scene.environment && is_lit(*scene.environment);
   if (environment || !scene.lights.empty()) {
     const LitRegion region = lit_region(scene, world);

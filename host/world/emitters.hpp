@@ -7,6 +7,6 @@ namespace causticl {
 
 /// Appends the scene's delta lights and environment to the surfaces that are emitters of the world already,
 /// gives each its probability, and fills the environment's table.
-void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, World& world);
+void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatScene& world);
 
 }  // namespace causticl

@@ -23,9 +23,9 @@ void store_rows(const Transform& transform, float4 rows[3]) {
 }
 
 /// Appends the primitives of one object after another.
-class WorldBuilder {
+class SceneFlattener {
  public:
-  WorldBuilder(const Scene& scene, double time, const Dielectrics& dielectrics)
+  SceneFlattener(const Scene& scene, double time, const Dielectrics& dielectrics)
       : scene_(scene), time_(time), dielectrics_(dielectrics) {
     for (const auto& object : scene.objects) materials_.push_back(static_cast<uint>(object.material));
     for (std::size_t i = 0; i < dielectrics.bodies.size(); ++i)
@@ -33,7 +33,7 @@ class WorldBuilder {
           static_cast<uint>(scene.materials.size() + i);
   }
 
-  World build() {
+  FlatScene build() {
     // Planes come first, so that a kernel scans them by number.
     for (index_ = 0; index_ < scene_.objects.size(); ++index_)
       if (scene_.objects[index_].shape == Shape3::plane) add_shape(placed(scene_.objects[index_]));
@@ -62,7 +62,7 @@ class WorldBuilder {
   const Dielectrics& dielectrics_;
   std::vector<uint> materials_;  // of each object, on the device
   std::size_t index_ = 0;        // of the object at hand
-  World world_;
+  FlatScene world_;
 
   /// The object where it is at the time.
   Object placed(Object object) const {
@@ -274,8 +274,8 @@ std::size_t bounded_primitives(const Scene& scene) {
   return count;
 }
 
-World build_world(const Scene& scene, double time, const Dielectrics& dielectrics) {
-  return WorldBuilder(scene, time, dielectrics).build();
+FlatScene flatten_scene(const Scene& scene, double time, const Dielectrics& dielectrics) {
+  return SceneFlattener(scene, time, dielectrics).build();
 }
 
 }  // namespace causticl

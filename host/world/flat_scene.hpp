@@ -10,7 +10,7 @@
 
 namespace causticl {
 
-struct World {
+struct FlatScene {
   TreeInput tree;                              // all bounded primitives
   std::vector<TriangleAttributes> attributes;  // one per triangle of the tree
   std::vector<Shape> shapes;                   // infinite planes first
@@ -24,7 +24,7 @@ struct World {
 /// The scene at `time`. Meshes, rectangles and boxes become world-space triangles, everything else becomes
 /// shapes; emissive ones are listed as emitters, as are the lights that are no surfaces, with their
 /// probabilities. Each body of `dielectrics` gets a material of its own, behind those of the scene.
-World build_world(const Scene& scene, double time = 0, const Dielectrics& dielectrics = {});
+FlatScene flatten_scene(const Scene& scene, double time = 0, const Dielectrics& dielectrics = {});
 
 /// How many primitives it puts into the tree.
 std::size_t bounded_primitives(const Scene& scene);

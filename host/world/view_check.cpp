@@ -49,7 +49,7 @@ bool sees_plane(const CameraSpec& camera, const Shape& plane) {
 std::string empty_view_notice(const Scene& scene) {
   const CameraSpec& camera = scene.camera;
   if (camera.aperture > 0 || has_motion(scene)) return "";
-  const World world = build_world(scene, camera.shutter[0]);
+  const FlatScene world = flatten_scene(scene, camera.shutter[0]);
   for (uint i = 0; i < world.plane_count; ++i)
     if (sees_plane(camera, world.shapes[i])) return "";
   for (const auto& triangle : world.tree.triangles) {

@@ -59,7 +59,7 @@ class MeshBench {
     measure("packets", camera);
     const auto random = random_rays();
     measure("random", random);
-    if (device_.runs_items_in_turn()) measure("waves", random);
+    if (device_.has_serial_work_items()) measure("waves", random);
     measure("shadow", shadow_rays(camera, distances));
   }
 
@@ -142,7 +142,7 @@ class MeshBench {
     const bool waves = std::string(kind) == "waves";
     cl::Kernel kernel(program_, any       ? "occluded"
                                 : packets ? "closest_packets"
-                                : waves   ? "closest_waves"
+                                : waves   ? "closest_streams"
                                           : "closest");
     set_arguments(kernel, nodes_, blocks_, none_, none_, none_, ray_buffer, result_buffer,
                   static_cast<cl_uint>(rays.size()));

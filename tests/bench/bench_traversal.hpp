@@ -20,7 +20,7 @@ struct TraversalBenchOptions {
 struct TraversalBenchResult {
   std::string mesh;      // "knot 100000" or a file's name
   std::string rays;      // "camera", "packets" (camera rays again, in tiles), "random", "waves" (these
-                         // again, side by side) or "shadow"
+                         // again, in a batch) or "shadow"
   double mrays = 0;      // millions a second
   double mrays_cpu = 0;  // the same, a second of CPU time
   double embree_mrays =

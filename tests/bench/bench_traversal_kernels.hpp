@@ -43,11 +43,11 @@ kernel void closest_packets(GEOMETRY_PARAMETERS, global const float4 *rays, glob
   GEOMETRY_INIT(0)
   tile_closest(&geometry, rays, distances, side, tile);
 }
-#ifdef KDTREE_WAVES
-OUTLINE void wave_closest(const Geometry *g, global const float4 *rays, global float *distances, uint first, uint count) {
-  float origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
-  uint primitive[WAVE_CAPACITY], faults[WAVE_CAPACITY];
-  for (uint i = 0; i < WAVE_CAPACITY; ++i) {
+#ifdef KDTREE_STREAMS
+OUTLINE void stream_closest(const Geometry *g, global const float4 *rays, global float *distances, uint first, uint count) {
+  float origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
+  uint primitive[STREAM_CAPACITY], diagnostics[STREAM_CAPACITY];
+  for (uint i = 0; i < STREAM_CAPACITY; ++i) {
     uint at = first + min(i, count - 1u);
     Ray ray = load_ray(rays, at);
     origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
@@ -55,23 +55,23 @@ OUTLINE void wave_closest(const Geometry *g, global const float4 *rays, global f
     t[i] = rays[2u * at].w, u[i] = v[i] = 0, primitive[i] = HIT_NONE;
   }
   RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
-  kdtree_wave(g->nodes, g->blocks, g->shapes, g->curves, &arrays, count, faults);
+  kdtree_stream(g->nodes, g->blocks, g->shapes, g->curves, &arrays, count, diagnostics);
   for (uint i = 0; i < count; ++i) distances[first + i] = t[i];
 }
-// As "closest", by waves of consecutive rays, one for every WAVE_CAPACITY items.
-kernel void closest_waves(GEOMETRY_PARAMETERS, global const float4 *rays, global float *distances, uint count) {
+// As "closest", by waves of consecutive rays, one for every STREAM_CAPACITY items.
+kernel void closest_streams(GEOMETRY_PARAMETERS, global const float4 *rays, global float *distances, uint count) {
   uint first = (uint)get_global_id(0);
-  if (first % WAVE_CAPACITY != 0 || first >= count) return;
+  if (first % STREAM_CAPACITY != 0 || first >= count) return;
   GEOMETRY_INIT(0)
-  wave_closest(&geometry, rays, distances, first, min(WAVE_CAPACITY, count - first));
+  stream_closest(&geometry, rays, distances, first, min(STREAM_CAPACITY, count - first));
 }
 #endif
 kernel void occluded(GEOMETRY_PARAMETERS, global const float4 *rays, global uint *result, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   GEOMETRY_INIT(0)
-  uint faults = 0;
-  result[i] = geometry_occluded(&geometry, load_ray(rays, i), rays[2 * i].w, &faults);
+  uint diagnostics = 0;
+  result[i] = geometry_occluded(&geometry, load_ray(rays, i), rays[2 * i].w, &diagnostics);
 }
 )";
 

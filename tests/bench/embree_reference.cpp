@@ -1,7 +1,11 @@
 #include "bench/embree_reference.hpp"
 
 #ifdef CAUSTICL_EMBREE
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #endif
 
 #include <cstring>
@@ -24,6 +28,22 @@ RTCRay embree_ray(const BenchRay& ray) {
   result.mask = ~0u;
   return result;
 }
+
+#if RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& hit) { rtcIntersect1(scene, &hit, nullptr); }
+void occlude(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
+#else
+void intersect(RTCScene scene, RTCRayHit& hit) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &hit);
+}
+void occlude(RTCScene scene, RTCRay& ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
 
 }  // namespace
 
@@ -62,13 +82,11 @@ Elapsed EmbreeReference::closest(const std::vector<BenchRay>& rays, std::vector<
   distances.resize(rays.size());
   const Stopwatch watch;
   parallel_chunks(rays.size(), 16384, threads_, [&](std::size_t first, std::size_t last) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t i = first; i < last; ++i) {
       RTCRayHit hit;
       hit.ray = embree_ray(rays[i]);
       hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(state_->scene, &context, &hit);
+      intersect(state_->scene, hit);
       distances[i] = hit.ray.tfar;
     }
   });
@@ -79,11 +97,9 @@ Elapsed EmbreeReference::occluded(const std::vector<BenchRay>& rays, std::vector
   result.resize(rays.size());
   const Stopwatch watch;
   parallel_chunks(rays.size(), 16384, threads_, [&](std::size_t first, std::size_t last) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t i = first; i < last; ++i) {
       RTCRay ray = embree_ray(rays[i]);
-      rtcOccluded1(state_->scene, &context, &ray);
+      occlude(state_->scene, ray);
       result[i] = ray.tfar < 0;
     }
   });

@@ -1,9 +1,9 @@
 // Every bad scene, mesh and image gets its one line, from load_scene and from the program.
 #include <sys/wait.h>
 
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
+#include "catch2.hpp"
 
 #include "bad_scenes.hpp"
 #include "format/load_scene.hpp"

@@ -1,7 +1,7 @@
 // Whatever a scene names, `info` is done with it, or through with it, in little memory and time.
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "measured.hpp"
 #include "scene/hostile_images.hpp"

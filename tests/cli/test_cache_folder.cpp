@@ -1,7 +1,7 @@
 // Kernels that are kept between runs of `causticl`: the picture is the same to the bit, whatever happened to
 // the folder, and a line says what.
-#include <catch2/catch.hpp>
 #include <thread>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "small_render.hpp"

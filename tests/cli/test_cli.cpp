@@ -1,5 +1,5 @@
 // The command line as a user meets it: help, errors, exit codes, and the commands that render nothing.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "small_render.hpp"
 
@@ -106,7 +106,7 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
       {{"info", "a.json", "--passes", "3"},
        "unknown option or argument --passes; it belongs to `causticl render`"},
       {{"compare", "a.pfm", "b.pfm", "--mpa", "c.png"}, "did you mean --map?"},
-      {{"study", "a.json", "--kobs", "alpha"}, "did you mean --knobs?"},
+      {{"study", "a.json", "--paramters", "alpha"}, "did you mean --parameters?"},
       {{"selftest", "--quik"}, "did you mean --quick?"},
       {{"render", "a.json", "--integrator", "pathh"}, "found 'pathh'; did you mean path?"},
       {{"render", "a.json", "--precision", "duoble"}, "found 'duoble'; did you mean double?"},

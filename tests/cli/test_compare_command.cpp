@@ -1,9 +1,9 @@
 // `causticl compare` as a user meets it.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "image/image.hpp"
 #include "process.hpp"

@@ -1,6 +1,6 @@
 // Entries of kernels with a flipped bit, met by the program itself: none is used, each is built anew.
-#include <catch2/catch.hpp>
 #include <random>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "small_render.hpp"

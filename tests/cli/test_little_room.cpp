@@ -4,8 +4,8 @@
 #include <sys/mount.h>
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
 #include <thread>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "measured.hpp"

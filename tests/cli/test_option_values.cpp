@@ -1,5 +1,5 @@
 // Values as people write them.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "base/spelling.hpp"
 #include "format/option_values.hpp"

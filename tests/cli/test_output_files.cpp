@@ -2,9 +2,9 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <cstdlib>
+#include "catch2.hpp"
 
 #include "base/console.hpp"
 #include "base/output_file.hpp"

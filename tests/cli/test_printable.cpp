@@ -1,5 +1,5 @@
 // What may reach a terminal of texts that come from files.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "base/printable.hpp"
 #include "vector_inputs.hpp"

@@ -1,6 +1,6 @@
 // What a user sees and may do while a render runs: progress, signals, limits of time.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "image/image.hpp"
 #include "small_render.hpp"

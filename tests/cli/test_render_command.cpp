@@ -1,6 +1,6 @@
 // `causticl render` as a user meets it: files, reproducible bytes, statistics, kernels.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "image/image.hpp"
 #include "small_render.hpp"

@@ -1,10 +1,10 @@
 // What is told to the user: numbers, progress, statistics, scene and devices.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "app/options.hpp"
 #include "app/progress.hpp"
@@ -244,17 +244,17 @@ TEST_CASE("the table lists kernels by their share of the time") {
 
 TEST_CASE("every kind of fault is counted in the table and the JSON, and warned about") {
   Statistics statistics = example_statistics();
-  CHECK(fault_warnings(statistics.faults).empty());
+  CHECK(diagnostic_warnings(statistics.diagnostics).empty());
   std::uint64_t count = 3;
-  for (const auto& kind : fault_kinds) statistics.faults.*kind.count = count++;
+  for (const auto& kind : diagnostic_kinds) statistics.diagnostics.*kind.count = count++;
   const std::string table = statistics_table(statistics);
   const auto object = nlohmann::json::parse(statistics_json(statistics));
-  const auto warnings = fault_warnings(statistics.faults);
-  REQUIRE(warnings.size() == std::size(fault_kinds));
+  const auto warnings = diagnostic_warnings(statistics.diagnostics);
+  REQUIRE(warnings.size() == std::size(diagnostic_kinds));
   for (std::size_t i = 0; i < warnings.size(); ++i) {
     const std::string number = std::to_string(i + 3);
-    CHECK_THAT(table, Contains(std::string(fault_kinds[i].key) + " " + number));
-    CHECK(object[fault_kinds[i].key] == i + 3);
+    CHECK_THAT(table, Contains(std::string(diagnostic_kinds[i].key) + " " + number));
+    CHECK(object[diagnostic_kinds[i].key] == i + 3);
     CHECK_THAT(warnings[i], StartsWith(number + " "));
   }
 }

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "format/asset_file.hpp"
 #include "format/load_scene.hpp"

@@ -1,8 +1,8 @@
 // The scripts, run in a copy of scripts/ among stand-ins for the tools of the machine.
 #include <sys/wait.h>
 
-#include <catch2/catch.hpp>
 #include <cstdio>
+#include "catch2.hpp"
 
 #include "temporary_folder.hpp"
 

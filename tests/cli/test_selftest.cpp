@@ -1,11 +1,11 @@
 // `causticl selftest` as a user meets it: the table, the JSON, exit codes, replaying a failure.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "process.hpp"
 #include "temporary_folder.hpp"

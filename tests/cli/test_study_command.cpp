@@ -1,6 +1,6 @@
 // `causticl study` as a user meets it: its files, a budget, being killed and going on, and what it refuses.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "base/temporary_file.hpp"
 #include "image/image.hpp"
@@ -11,11 +11,11 @@ using Catch::Contains;
 
 namespace {
 
-/// A study of small pictures, few photons and one knob, with `more` in place of its own options or after
+/// A study of small pictures, few photons and one parameter, with `more` in place of its own options or after
 /// them.
 Words small_study(const Words& more = {}) {
-  Words words{"study",   cornell_box, "--size",   "12x9", "-D", "renderer.photon_sample=2000",
-              "--knobs", "alpha",     "--budget", "20",   "-o", "out"};
+  Words words{"study",        cornell_box, "--size",   "12x9", "-D", "renderer.photon_sample=2000",
+              "--parameters", "alpha",     "--budget", "20",   "-o", "out"};
   for (std::size_t i = 0; i + 1 < more.size(); i += 2) {
     const auto known = std::find(words.begin(), words.end(), more[i]);
     if (known != words.end() && more[i] != "-D") words.erase(known, known + 2);
@@ -141,7 +141,8 @@ TEST_CASE("what study cannot take gets one line and exit code 2") {
   write_picture(folder.path("black.pfm"), {12, 9, std::vector<float>(324, 0.0f)}, {});
   folder.write("file", "");
   const std::vector<std::pair<Words, std::string>> cases{
-      {{"--knobs", "alpah"}, "--knobs: there is no knob \"alpah\"; expected some of integrator, photons"},
+      {{"--parameters", "alpah"},
+       "--parameters: there is no parameter \"alpah\"; expected some of integrator, photons"},
       {{"--budget", "0"}, "expected a positive time in seconds, or as in 90s, 10m or 1h30m, found '0'"},
       {{"--seeds", "1"}, "expected a whole number from 2 to 16"},
       {{"--reference", "missing.exr"}, "missing.exr"},

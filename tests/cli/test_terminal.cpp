@@ -1,5 +1,5 @@
 // Nothing that a file holds or is called reaches the terminal as a control character.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "base/printable.hpp"
 #include "image/image.hpp"

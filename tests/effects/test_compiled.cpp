@@ -1,7 +1,7 @@
 // The program of a scene holds the code of an effect exactly where the scene calls for it: asserted on what
 // the driver builds. A build in which that code calls a function that does not exist fails where the code is
 // there.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "base/error.hpp"
 #include "device_fixture.hpp"

@@ -1,9 +1,9 @@
 // What a scene calls for: found by reading it, and of no influence on the picture.
 #include <algorithm>
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include "catch2.hpp"
 
 #include "base/error.hpp"
 #include "device_fixture.hpp"

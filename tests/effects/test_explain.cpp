@@ -1,8 +1,8 @@
 // `causticl explain`: every effect in one table, with what it costs where that is measured.
 #include "render/explain.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"

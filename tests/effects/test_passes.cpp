@@ -1,7 +1,7 @@
 // Passes that cannot change the picture do not run: by the counters of launches, and by the picture.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"

@@ -39,7 +39,7 @@ void load(const std::string& text, const SceneOptions& options) {
     }
     std::istringstream summary(printable(scene_summary(scene)));
     for (std::string line; std::getline(summary, line);) promise_for_terminal(line);
-    const World world = build_world(scene);
+    const FlatScene world = flatten_scene(scene);
     build_kdtree(world.tree, 1);
   });
 }

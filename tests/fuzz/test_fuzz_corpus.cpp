@@ -1,9 +1,9 @@
 // Every file that the fuzzers begin from, read by the fuzzers' own functions.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include "catch2.hpp"
 
 #include "fuzz_input.hpp"
 

@@ -52,8 +52,8 @@ kernel void trace(global const Shape *shapes, global const float *curves, global
   Hit hit = hit_none(rays[2 * i].w);
   bool found = shape_closest(shape, index, curves, ray, &hit);
   bool named = found == (hit.primitive == (HIT_SHAPE | index));
-  uint faults = 0;
-  bool occluded = shape_occluded(shape, curves, ray, rays[2 * i].w, &faults);
+  uint diagnostics = 0;
+  bool occluded = shape_occluded(shape, curves, ray, rays[2 * i].w, &diagnostics);
   result[0] = (float4)(hit.t, hit.u, hit.v, found && named);
   result[4] = (float4)(0, 0, 0, occluded);
   result[5] = (float4)(INFINITY, 0, 0, 0);

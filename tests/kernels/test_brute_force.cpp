@@ -111,10 +111,10 @@ TEST_CASE(
   for (int i = 0; i < 3; ++i) add(boxes, box_mesh({0.5 * i, 0, 0}, {0.5 * i + 0.5, 0.5, 0.5}));
   check_packets({boxes, {}}, {}, random);
   check_packets({duplicate_triangles(10), {}}, {}, random);
-  TriangleMesh needles;
+  TriangleMesh slivers;
   for (int i = 0; i < 20; ++i)
-    needles.push_back(make_triangle({0.05 * i, 0, 0}, {0.05 * i + 1e-5, 0, 1}, {0.05 * i, 1, 0.5}));
-  check_packets({needles, {}}, {}, random);
+    slivers.push_back(make_triangle({0.05 * i, 0, 0}, {0.05 * i + 1e-5, 0, 1}, {0.05 * i, 1, 0.5}));
+  check_packets({slivers, {}}, {}, random);
 }
 
 TEST_CASE(

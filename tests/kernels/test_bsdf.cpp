@@ -114,7 +114,7 @@ std::vector<Input> tilted_inputs(RandomInputs& random) {
   return inputs;
 }
 
-double arriving_cosine(const Input& input) {
+double wi_cosine(const Input& input) {
   return std::fabs(dot(to_vec3(input.direction), to_vec3(input.geometric)));
 }
 
@@ -233,8 +233,7 @@ TEST_CASE("a refracted ray sent back comes out where it came from") {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const Vec3 d = to_vec3(inputs[i].direction), out = to_vec3(there[i].direction);
     // Next to grazing or the critical angle the way back is ill-conditioned, or reflected.
-    const double cosine = arriving_cosine(inputs[i]),
-                 cosine_t = std::fabs(dot(out, to_vec3(inputs[i].geometric)));
+    const double cosine = wi_cosine(inputs[i]), cosine_t = std::fabs(dot(out, to_vec3(inputs[i].geometric)));
     if (same_side(there[i]) || cosine < 0.01 || cosine_t < 0.01) continue;
     ++refracted;
     wrong += !(length(to_vec3(back[i].direction) + d) < 1e-6 + 3e-6 / std::min(cosine, cosine_t));

@@ -8,16 +8,16 @@ namespace {
 const char* const source = R"(
 #include "materials/dispersion.cl"
 typedef struct {
-  float4 carried;      // w: random number
+  float4 throughput;      // w: random number
   float4 wavelength2;  // 1 / wavelength^2 of each channel; w: A
 } Input;
 kernel void split(global const Input *in, global float4 *out, uint count, global const Material *material) {
   uint i = get_global_id(0);
   if (i >= count) return;
   Bsdf bsdf = {MATERIAL_GLASS, (real3)(1, 1, 1), in[i].wavelength2.w};
-  real3 carried = in[i].carried.xyz;
-  disperse(&bsdf, material, in[i].wavelength2.xyz, in[i].carried.w, &carried);
-  out[i] = (float4)(carried, bsdf.ior);
+  real3 throughput = in[i].throughput.xyz;
+  disperse(&bsdf, material, in[i].wavelength2.xyz, in[i].throughput.w, &throughput);
+  out[i] = (float4)(throughput, bsdf.ior);
 }
 // Refracts a ray along +x twice, through the sides of a prism of apex angle `apex` that is turned by `turn`, and
 // returns the angle that it was turned by.
@@ -26,8 +26,8 @@ kernel void deviate(global const float4 *in, global float *out, uint count, glob
   if (i >= count) return;
   real apex = in[i].x, turn = in[i].y;
   Bsdf bsdf = {MATERIAL_GLASS, (real3)(1, 1, 1), in[i].z};
-  real3 carried = (real3)(0, 1, 0);
-  disperse(&bsdf, material, (real3)(0, in[i].w, 0), 0, &carried);
+  real3 throughput = (real3)(0, 1, 0);
+  disperse(&bsdf, material, (real3)(0, in[i].w, 0), 0, &throughput);
   real3 d = (real3)(1, 0, 0);
   for (int side = 0; side < 2; ++side) {
     real angle = turn + (side == 0 ? PI - apex / 2 : apex / 2);
@@ -60,13 +60,13 @@ TEST_CASE(
   constexpr std::size_t count = 1 << 20;
   constexpr double b = 0.02;
   struct Input {
-    float4 carried, wavelength2;
+    float4 throughput, wavelength2;
   };
   RandomInputs random(211);
   std::vector<Input> inputs(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto channel = [&] { return i % 3 && random.uniform() < 0.3 ? 0.0 : random.uniform(); };
-    inputs[i].carried =
+    inputs[i].throughput =
         to_float4({channel(), channel(), channel()}, i % 64 ? uniform24(random) : 0.99999994f);
     const auto inverse2 = [&] { return std::pow(random.uniform(0.38, 0.72), -2); };
     inputs[i].wavelength2 = to_float4({inverse2(), inverse2(), inverse2()}, random.uniform(1, 2));
@@ -78,25 +78,25 @@ TEST_CASE(
   std::size_t wrong_sum = 0, not_single = 0, wrong_index = 0, empty = 0;
   Vec3 before, after, variance;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 carried = to_vec3(inputs[i].carried), found = to_vec3(outputs[i]),
+    const Vec3 throughput = to_vec3(inputs[i].throughput), found = to_vec3(outputs[i]),
                wavelength2 = to_vec3(inputs[i].wavelength2);
-    const double sum = carried.x + carried.y + carried.z;
+    const double sum = throughput.x + throughput.y + throughput.z;
     if (sum == 0) {
-      empty += !(found == carried);
+      empty += !(found == throughput);
       continue;
     }
     not_single += (found.x > 0) + (found.y > 0) + (found.z > 0) != 1;
     const int channel = found.x > 0 ? 0 : found.y > 0 ? 1 : 2;
-    not_single += !(carried[channel] > 0);
+    not_single += !(throughput[channel] > 0);
     wrong_sum += !(std::fabs(found[channel] - sum) <= 3e-7 * sum);
     const double n =
         inputs[i].wavelength2.w + static_cast<double>(static_cast<float>(b)) * wavelength2[channel];
     wrong_index += !(std::fabs(outputs[i].w - n) <= 4e-7 * n);
     if (i % 64 == 0) continue;  // whose random number is none
     for (int c = 0; c < 3; ++c) {
-      before[c] += carried[c];
+      before[c] += throughput[c];
       after[c] += found[c];
-      variance[c] += carried[c] * (sum - carried[c]);
+      variance[c] += throughput[c] * (sum - throughput[c]);
     }
   }
   CHECK(wrong_sum == 0);

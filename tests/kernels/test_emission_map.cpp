@@ -1,6 +1,6 @@
 // The map by which photons start: cells that fill the cube, drawn by the device as often as the host says.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "photons/emission_map.hpp"
@@ -27,7 +27,7 @@ kernel void draw(global const EmissionCell *cells, uint count, global float *num
 }
 )";
 
-constexpr std::size_t scouts = 1 << 15;
+constexpr std::size_t pilot_paths = 1 << 15;
 
 /// Whether a photon is of use: a thin slab across two numbers, in two pieces.
 bool is_useful(const StartNumbers& x) {
@@ -47,14 +47,14 @@ StartNumbers random_numbers(RandomInputs& random) {
   return numbers;
 }
 
-/// The map that scouts learn which start evenly.
+/// The map that pilot paths learn which start evenly.
 std::vector<EmissionCell> learned(RandomInputs& random) {
   std::vector<StartNumbers> useful;
-  for (std::size_t i = 0; i < scouts; ++i) {
+  for (std::size_t i = 0; i < pilot_paths; ++i) {
     const StartNumbers numbers = random_numbers(random);
     if (is_useful(numbers)) useful.push_back(numbers);
   }
-  return emission_map(useful, scouts, {});
+  return emission_map(useful, pilot_paths, {});
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ kernel void draw(global const float4 *in, global float4 *out, uint count, global
 kernel void start(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter, float4 to) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  out[i] = convert_float4((real4)(distant_origin(emitter, convert_real3(to.xyz), convert_real2(in[i].xy)), 0));
+  out[i] = convert_float4((real4)(infinite_light_origin(emitter, convert_real3(to.xyz), convert_real2(in[i].xy)), 0));
 }
 )";
 

@@ -146,7 +146,7 @@ TEST_CASE("the film's spread, blur and alternating sum equal two-pass ones of it
   Counters counters{};
   const auto film = add_samples(samples, pixels, counters);
   for (uint i = 0; i < pixels; ++i) {
-    double sum = 0, spread = 0, alternating = 0, blur[2] = {};
+    double sum = 0, m2_deviation = 0, signed_half_sum = 0, kernel_bias[2] = {};
     std::vector<double> finite;
     int in_half[2] = {0, 0};
     for (uint n = 0; n < count; ++n) {
@@ -156,16 +156,17 @@ TEST_CASE("the film's spread, blur and alternating sum equal two-pass ones of it
       if (std::isnan(s.y)) continue;                        // the mean of blur stays as it is
       const bool minus = std::popcount(finite.size()) % 2;  // those that are left out take no sign
       finite.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
-      alternating += minus ? -finite.back() : finite.back();
+      signed_half_sum += minus ? -finite.back() : finite.back();
       sum += finite.back();
-      blur[half] += (s.w - blur[half]) / in_half[half];
+      kernel_bias[half] += (s.w - kernel_bias[half]) / in_half[half];
     }
     const double mean = sum / static_cast<double>(finite.size());
-    for (const double value : finite) spread += (value - mean) * (value - mean);
-    CHECK(film[i].spread == Approx(std::sqrt(spread / static_cast<double>(finite.size()))).epsilon(1e-5));
-    CHECK(film[i].alternating == Approx(alternating).epsilon(1e-5).margin(1e-3));
+    for (const double value : finite) m2_deviation += (value - mean) * (value - mean);
+    CHECK(film[i].m2_deviation ==
+          Approx(std::sqrt(m2_deviation / static_cast<double>(finite.size()))).epsilon(1e-5));
+    CHECK(film[i].signed_half_sum == Approx(signed_half_sum).epsilon(1e-5).margin(1e-3));
     for (int parity = 0; parity < 2; ++parity)
-      CHECK(film[i].blur[parity] == Approx(blur[parity]).margin(1e-4));
+      CHECK(film[i].kernel_bias[parity] == Approx(kernel_bias[parity]).margin(1e-4));
   }
 }
 
@@ -187,8 +188,8 @@ TEST_CASE("spread and blur are as relative to light of any brightness, and after
     const auto film = add_samples(scaled, pixels, counters);
     CAPTURE(power, random.seed);
     for (uint i = 0; i < pixels; ++i) {
-      CHECK(std::ldexp(film[i].spread, -power) == Approx(plain[i].spread).epsilon(1e-4));
-      CHECK(std::ldexp(film[i].blur[0], -power) == Approx(plain[i].blur[0]).epsilon(1e-4));
+      CHECK(std::ldexp(film[i].m2_deviation, -power) == Approx(plain[i].m2_deviation).epsilon(1e-4));
+      CHECK(std::ldexp(film[i].kernel_bias[0], -power) == Approx(plain[i].kernel_bias[0]).epsilon(1e-4));
     }
   }
 
@@ -204,13 +205,13 @@ kernel void go_on(global FilmPixel *film, volatile global Counters *counters, ui
   constexpr uint first = 1000000000, more = 2000000;
   FilmPixel pixel{};
   for (float& sum : pixel.sum) sum = first;
-  pixel.spread = 1;
-  pixel.blur[0] = pixel.blur[1] = 1;
+  pixel.m2_deviation = 1;
+  pixel.kernel_bias[0] = pixel.kernel_bias[1] = 1;
   auto film = test_device().upload(std::vector<FilmPixel>{pixel}, "film");
   auto counts = test_device().upload(std::vector<Counters>(1), "counters");
   run_kernel(program, "go_on", 1, film, counts, cl_uint(first), cl_uint(more));
   const FilmPixel now = test_device().download<FilmPixel>(film, 1)[0];
-  CHECK(now.spread == Approx(1).epsilon(0.05));
-  CHECK(now.blur[0] == Approx(1).epsilon(0.01));
+  CHECK(now.m2_deviation == Approx(1).epsilon(0.05));
+  CHECK(now.kernel_bias[0] == Approx(1).epsilon(0.01));
   CHECK(now.sum[0] + double(now.low[0]) == Approx(double(first) + more).epsilon(1e-6));
 }

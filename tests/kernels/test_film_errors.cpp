@@ -13,19 +13,19 @@ using namespace causticl;
 namespace {
 
 std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint width, uint passes,
-                                      uint stride, bool even = false) {
+                                      uint stride, bool low_discrepancy = false) {
   auto program = build_test_program("#include \"passes/pass_film.cl\"\n");
   auto pixels = test_device().upload(film, "film");
   const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
   auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
   run_kernel(program, "pixel_errors", count, pixels, errors, width, static_cast<uint>(film.size()) / width,
-             passes, stride, count, uint(even));
+             passes, stride, count, uint(low_discrepancy));
   return test_device().download<PixelError>(errors, count);
 }
 
 /// The same as the kernel's comment says, by the definition.
 struct Oracle {
-  double noise, pooled_noise, bias, drawn;
+  double noise, pooled_noise, bias, half_difference;
 };
 Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes, bool even_estimates) {
   const int height = static_cast<int>(film.size()) / width;
@@ -39,7 +39,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
   };
   const auto variance_of = [&](const FilmPixel& p) {
     const double n = passes - p.left_out;
-    return std::pow(p.spread, 2) / std::max(n - 1, 1.0);
+    return std::pow(p.m2_deviation, 2) / std::max(n - 1, 1.0);
   };
   double variance = 0;
   const double pixels = over_window(x, y, [&](const FilmPixel& p) { variance += variance_of(p); });
@@ -53,8 +53,8 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
     for (int i = x - 3; i <= x + 3; i += 3) {
       double first = 0, second = 0;
       const double count = over_window(i, j, [&](const FilmPixel& p) {
-        first += p.blur[0];
-        second += p.blur[1];
+        first += p.kernel_bias[0];
+        second += p.kernel_bias[1];
       });
       if (count == 0) continue;
       ++windows;
@@ -67,7 +67,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
     int plus = 0;
     for (uint k = 0; k < passes - p.left_out; ++k) plus += std::popcount(k) % 2 ? -1 : 1;
     const double luminance = (0.2126 * p.sum[0] + 0.7152 * p.sum[1] + 0.0722 * p.sum[2]) / n;
-    return (p.alternating - plus * luminance) / n;
+    return (p.signed_half_sum - plus * luminance) / n;
   };
   const FilmPixel& own = film[static_cast<std::size_t>(y) * width + x];
   double share = 1;
@@ -116,26 +116,27 @@ TEST_CASE("errors of pixels equal those in double precision, at borders too") {
   for (auto& pixel : film) {
     for (int c = 0; c < 3; ++c) pixel.sum[c] = static_cast<float>(random.uniform(0, 40));
     pixel.left_out = random.uniform() < 0.1 ? static_cast<uint>(random.uniform(1, 21)) : 0;
-    pixel.spread = static_cast<float>(random.uniform(0, 3));
+    pixel.m2_deviation = static_cast<float>(random.uniform(0, 3));
     // The halves of the passes agree to the noise of what is beside, or do not.
-    const double blur = random.uniform(0, 4);
-    for (float& sum : pixel.blur) sum = static_cast<float>(blur + random.uniform(-1, 1));
-    pixel.alternating = static_cast<float>(random.uniform(-9, 9));
+    const double kernel_bias = random.uniform(0, 4);
+    for (float& sum : pixel.kernel_bias) sum = static_cast<float>(kernel_bias + random.uniform(-1, 1));
+    pixel.signed_half_sum = static_cast<float>(random.uniform(-9, 9));
   }
   uint biased = 0;
-  for (const auto& [stride, even, passes] : {std::tuple{1u, false, 20u}, {5u, false, 21u}, {1u, true, 20u}}) {
-    const auto errors = device_errors(film, width, passes, stride, even);
+  for (const auto& [stride, low_discrepancy, passes] :
+       {std::tuple{1u, false, 20u}, {5u, false, 21u}, {1u, true, 20u}}) {
+    const auto errors = device_errors(film, width, passes, stride, low_discrepancy);
     REQUIRE(errors.size() == (film.size() + stride - 1) / stride);
     for (uint k = 0; k < errors.size(); ++k) {
       const uint i = k * stride;
-      const Oracle expected = oracle(film, width, i % width, i / width, passes, even);
-      CAPTURE(i, even, passes, random.seed);
+      const Oracle expected = oracle(film, width, i % width, i / width, passes, low_discrepancy);
+      CAPTURE(i, low_discrepancy, passes, random.seed);
       CHECK(errors[k].noise == Approx(expected.noise).epsilon(1e-5));
       CHECK(errors[k].pooled_noise == Approx(expected.pooled_noise).epsilon(1e-5));
       // A mean next to zero cancels.
       CHECK(errors[k].bias == Approx(expected.bias).epsilon(1e-3).margin(1e-4));
       biased += expected.bias > 0;
-      CHECK(errors[k].drawn == Approx(expected.drawn).epsilon(1e-5).margin(1e-5));
+      CHECK(errors[k].half_difference == Approx(expected.half_difference).epsilon(1e-5).margin(1e-5));
       const double n = std::max(1.0, static_cast<double>(passes) - film[i].left_out);
       CHECK(errors[k].luminance ==
             Approx((0.2126 * film[i].sum[0] + 0.7152 * film[i].sum[1] + 0.0722 * film[i].sum[2]) / n));
@@ -161,7 +162,7 @@ TEST_CASE("noise and bias of pixels are found where they are known") {
     for (const auto& error : errors) {
       noise2 += error.noise * error.noise / errors.size();
       pooled2 += error.pooled_noise * error.pooled_noise / errors.size();
-      drawn2 += error.drawn * error.drawn / errors.size();
+      drawn2 += error.half_difference * error.half_difference / errors.size();
       mean_bias += error.bias / errors.size();
     }
     CAPTURE(biased, random.seed);
@@ -201,9 +202,9 @@ TEST_CASE("the noise of pixels whose estimates are even is that of their means")
     truth[right] += std::pow(mean - 0.5, 2) / (width * height / 2);
   }
   const auto film = film_of(samples, passes);
-  for (const bool even : {false, true}) {
+  for (const bool low_discrepancy : {false, true}) {
     double noise[2] = {0, 0}, pooled[2] = {0, 0};
-    const auto errors = device_errors(film, width, passes, 1, even);
+    const auto errors = device_errors(film, width, passes, 1, low_discrepancy);
     for (uint i = 0; i < errors.size(); ++i) {
       const uint x = i % width;
       if (x + border >= width / 2 && x < width / 2 + border) continue;
@@ -211,10 +212,10 @@ TEST_CASE("the noise of pixels whose estimates are even is that of their means")
       noise[x >= width / 2] += share * std::pow(errors[i].noise, 2);
       pooled[x >= width / 2] += share * std::pow(errors[i].pooled_noise, 2);
     }
-    CAPTURE(even, random.seed);
+    CAPTURE(low_discrepancy, random.seed);
     CHECK(std::sqrt(noise[1] / truth[1]) == Approx(1).epsilon(0.05));
     CHECK(std::sqrt(pooled[1] / truth[1]) == Approx(1).epsilon(0.05));
-    if (even) {
+    if (low_discrepancy) {
       CHECK(std::sqrt(noise[0] / truth[0]) == Approx(1).epsilon(0.05));
       CHECK(std::sqrt(pooled[0] / truth[0]) == Approx(1).epsilon(0.05));
     } else {
@@ -233,7 +234,7 @@ TEST_CASE("errors drawn are spread as the errors of pixels whose light is rare")
     for (uint n = 0; n < passes; ++n) {
       const float value = random.uniform() < 0.025 ? 40.0f : 0.0f;
       for (float& sum : pixel.sum) sum += value;
-      pixel.alternating += std::popcount(n) % 2 ? -value : value;
+      pixel.signed_half_sum += std::popcount(n) % 2 ? -value : value;
     }
     errors.push_back(pixel.sum[0] / passes - 1);
   }
@@ -243,8 +244,8 @@ TEST_CASE("errors drawn are spread as the errors of pixels whose light is rare")
     fourth += std::pow(error, 4) / film.size();
   }
   for (const auto& error : device_errors(film, width, passes, 1)) {
-    drawn_variance += std::pow(error.drawn, 2) / film.size();
-    drawn_fourth += std::pow(error.drawn, 4) / film.size();
+    drawn_variance += std::pow(error.half_difference, 2) / film.size();
+    drawn_fourth += std::pow(error.half_difference, 4) / film.size();
   }
   CAPTURE(random.seed);
   const double kurtosis = fourth / (variance * variance);

@@ -283,7 +283,7 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
     double worst = 0, worst_radius = 0, worst_blur = 0, largest_blur = 0;
     std::size_t wrong = 0;
     for (uint i = 0; i < pixels; ++i) {
-      double radiance[3] = {0, 0, 0}, blur = 0;
+      double radiance[3] = {0, 0, 0}, kernel_bias = 0;
       std::uint64_t count = 0;
       for (uint s = 0; s < samples; ++s) {
         const VisiblePoint& v = visible[i * samples + s];
@@ -299,12 +299,13 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
         for (int c = 0; c < 3; ++c) {
           const double density = v.weight[c] * 0.125 / PHOTON_FLUX_UNIT / (M_PI * radius2);
           radiance[c] += v.radiance[c] + density * flux[c];
-          blur += luminance[c] * density * (flux[c] - 4 * near[c]) / samples;
+          kernel_bias += luminance[c] * density * (flux[c] - 4 * near[c]) / samples;
         }
       }
-      largest_blur = std::max(largest_blur, std::fabs(blur));
-      if (i != broken) worst_blur = std::max(worst_blur, std::fabs(out[first + i].blur[0] - blur));
-      wrong += out[first + i].blur[1] != 0 || out[first + i].spread != 0;
+      largest_blur = std::max(largest_blur, std::fabs(kernel_bias));
+      if (i != broken)
+        worst_blur = std::max(worst_blur, std::fabs(out[first + i].kernel_bias[0] - kernel_bias));
+      wrong += out[first + i].kernel_bias[1] != 0 || out[first + i].m2_deviation != 0;
       const SppmPixel& pixel = after[first + i];
       if (shared_radius2 > 0) {
         wrong += pixel.radius2_hi != 0.01f || pixel.photons_low != count;

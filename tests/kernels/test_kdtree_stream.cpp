@@ -7,51 +7,51 @@ using namespace causticl;
 
 namespace {
 
-// As "closest" of traversal_kernels.hpp, by waves: item number i traces a wave of 1 + i % WAVE_CAPACITY rays
-// and then the rest of WAVE_CAPACITY. Arrays have NaN where there is no ray, but what is found there must
-// stay.
+// As "closest" of traversal_kernels.hpp, by waves: item number i traces a wave of 1 + i % STREAM_CAPACITY
+// rays and then the rest of STREAM_CAPACITY. Arrays have NaN where there is no ray, but what is found there
+// must stay.
 const std::string kernels =
     "#define KD_STEP_LIMIT (1u << 12)\n" + std::string(sphere_stand_in) + traversal_kernels + R"(
 #include "traversal/kdtree_stream.cl"
-#ifdef KDTREE_WAVES
+#ifdef KDTREE_STREAMS
 uint wave(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-          global const float4 *rays, global float4 *hits, global uint *faults, uint first, uint size) {
-  float origin[3][WAVE_CAPACITY], direction[3][WAVE_CAPACITY], t[WAVE_CAPACITY], u[WAVE_CAPACITY], v[WAVE_CAPACITY];
-  uint primitive[WAVE_CAPACITY], found[WAVE_CAPACITY], changed = 0;
-  for (uint k = 0; k < WAVE_CAPACITY; ++k) {
+          global const float4 *rays, global float4 *hits, global uint *diagnostics, uint first, uint size) {
+  float origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
+  uint primitive[STREAM_CAPACITY], found[STREAM_CAPACITY], changed = 0;
+  for (uint k = 0; k < STREAM_CAPACITY; ++k) {
     float4 from = k < size ? rays[2 * (first + k)] : (float4)NAN, to = k < size ? rays[2 * (first + k) + 1] : (float4)NAN;
     origin[0][k] = from.x, origin[1][k] = from.y, origin[2][k] = from.z;
     direction[0][k] = to.x, direction[1][k] = to.y, direction[2][k] = to.z;
     t[k] = k < size ? from.w : 42, u[k] = v[k] = k < size ? 0 : 42, primitive[k] = HIT_NONE, found[k] = 42;
   }
   RayArrays arrays = {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, t, u, v, primitive};
-  kdtree_wave(nodes, blocks, shapes, 0, &arrays, size, found);
-  for (uint k = size; k < WAVE_CAPACITY; ++k)
+  kdtree_stream(nodes, blocks, shapes, 0, &arrays, size, found);
+  for (uint k = size; k < STREAM_CAPACITY; ++k)
     changed |= t[k] != 42 || u[k] != 42 || v[k] != 42 || primitive[k] != HIT_NONE || found[k] != 42;
   for (uint k = 0; k < size; ++k) {
     Hit hit = {t[k], primitive[k], u[k], v[k], 0};
     store_hit(hits, first + k, blocks, hit);
-    faults[first + k] = found[k];
+    diagnostics[first + k] = found[k];
   }
   return changed;
 }
 kernel void waves(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                  global const float4 *rays, global float4 *hits, uint count, global uint *faults, global uint *outside) {
-  uint first = (uint)get_global_id(0) * WAVE_CAPACITY;
+                  global const float4 *rays, global float4 *hits, uint count, global uint *diagnostics, global uint *outside) {
+  uint first = (uint)get_global_id(0) * STREAM_CAPACITY;
   if (first >= count) return;
-  uint size = min(WAVE_CAPACITY, count - first), head = min(size, 1u + (uint)get_global_id(0) % WAVE_CAPACITY);
-  uint changed = wave(nodes, blocks, shapes, rays, hits, faults, first, head);
-  if (head < size) changed |= wave(nodes, blocks, shapes, rays, hits, faults, first + head, size - head);
+  uint size = min(STREAM_CAPACITY, count - first), head = min(size, 1u + (uint)get_global_id(0) % STREAM_CAPACITY);
+  uint changed = wave(nodes, blocks, shapes, rays, hits, diagnostics, first, head);
+  if (head < size) changed |= wave(nodes, blocks, shapes, rays, hits, diagnostics, first + head, size - head);
   if (changed) *outside = 1;
 }
 #endif
 kernel void single(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
-                   global const float4 *rays, global float4 *hits, uint count, global uint *faults) {
+                   global const float4 *rays, global float4 *hits, uint count, global uint *diagnostics) {
   uint i = get_global_id(0);
   if (i >= count) return;
   Hit hit = hit_none(rays[2 * i].w);
   kdtree_closest(nodes, blocks, shapes, 0, load_ray(rays, i), &hit);
-  faults[i] = hit.faults;
+  diagnostics[i] = hit.diagnostics;
   store_hit(hits, i, blocks, hit);
 }
 )";
@@ -63,51 +63,51 @@ cl::Program& program() {
 
 // Only devices that run the items of a work-group in turn have waves.
 bool has_waves() {
-  if (test_device().runs_items_in_turn()) return true;
+  if (test_device().has_serial_work_items()) return true;
   WARN("no waves on this device: not tested");
   return false;
 }
 
-struct WaveHits {
+struct StreamHits {
   std::vector<TestHit> single, wave;
-  std::vector<uint> single_faults, wave_faults;
+  std::vector<uint> single_diagnostics, stream_diagnostics;
   uint outside;  // whether arrays were changed where there is no ray
 };
 
-WaveHits trace(const Traversal& scene, const std::vector<TestRay>& rays) {
+StreamHits trace(const Traversal& scene, const std::vector<TestRay>& rays) {
   auto& device = test_device();
   const auto count = static_cast<cl_uint>(rays.size());
   const auto buffer = Traversal::upload(rays);
   const auto single = device.buffer(rays.size() * sizeof(TestHit), "single"),
              wave = device.buffer(rays.size() * sizeof(TestHit), "wave"),
-             single_faults = device.buffer(rays.size() * sizeof(uint), "faults of single rays"),
-             wave_faults = device.buffer(rays.size() * sizeof(uint), "faults"),
+             single_diagnostics = device.buffer(rays.size() * sizeof(uint), "faults of single rays"),
+             stream_diagnostics = device.buffer(rays.size() * sizeof(uint), "faults"),
              outside = device.buffer(sizeof(uint), "outside");
   device.clear(outside, sizeof(uint));
   run_kernel(program(), "single", rays.size(), scene.nodes, scene.blocks, scene.shapes, buffer, single, count,
-             single_faults);
+             single_diagnostics);
   run_kernel(program(), "waves", (rays.size() + 63) / 64, scene.nodes, scene.blocks, scene.shapes, buffer,
-             wave, count, wave_faults, outside);
+             wave, count, stream_diagnostics, outside);
   return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(wave, rays.size()),
-          device.download<uint>(single_faults, rays.size()), device.download<uint>(wave_faults, rays.size()),
-          device.download<uint>(outside, 1)[0]};
+          device.download<uint>(single_diagnostics, rays.size()),
+          device.download<uint>(stream_diagnostics, rays.size()), device.download<uint>(outside, 1)[0]};
 }
 
-void check_waves(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
-                 std::size_t count = 96 * 1024 - 5) {
+void check_streams(const TreeInput& input, const std::vector<Shape>& shapes, RandomInputs& random,
+                   std::size_t count = 96 * 1024 - 5) {
   if (!has_waves()) return;
   const Traversal scene(input, shapes);
   const auto rays = hard_rays(scene, random, count);
   const auto found = trace(scene, rays);
   const auto hits = check_same_hits(rays, found.single, found.wave);
-  CHECK(found.single_faults == found.wave_faults);
+  CHECK(found.single_diagnostics == found.stream_diagnostics);
   CHECK(found.outside == 0);
   if (!input.triangles.empty() || !input.shapes.empty()) CHECK(hits > rays.size() / 100);
 }
 
 void check_mesh_waves(const TriangleMesh& mesh, unsigned seed, std::size_t count = 96 * 1024 - 5) {
   RandomInputs random(seed);
-  check_waves({mesh, {}}, {}, random, count);
+  check_streams({mesh, {}}, {}, random, count);
 }
 
 }  // namespace
@@ -133,9 +133,9 @@ TEST_CASE("waves find what single rays find: far from the origin, one triangle, 
 TEST_CASE("waves find what single rays find: spheres among triangles") {
   RandomInputs random(40);
   auto [input, shapes] = random_spheres(random, 300, 0.1);
-  check_waves(input, shapes, random, 32 * 1024);
+  check_streams(input, shapes, random, 32 * 1024);
   for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
-  check_waves(input, shapes, random);
+  check_streams(input, shapes, random);
 }
 
 TEST_CASE("waves find what single rays find: disks among spheres and triangles") {
@@ -148,7 +148,7 @@ TEST_CASE("waves find what single rays find: disks among spheres and triangles")
     add_disk(input, shapes, to_world);
   }
   for (const auto& t : torus_mesh(40, 20, 0.8, 0.3)) input.triangles.push_back(t);
-  check_waves(input, shapes, random);
+  check_streams(input, shapes, random);
 }
 
 TEST_CASE("a wave finds nothing that is as far as what its rays have met before") {
@@ -173,11 +173,11 @@ TEST_CASE("a ray that is not finite is cut short, and changes nothing for the ot
   std::size_t different = 0, cut_short = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     different += !broken[i] && (std::memcmp(&whole.single[i], &found.wave[i], sizeof(TestHit)) != 0 ||
-                                found.wave_faults[i] != 0);
-    cut_short += found.wave_faults[i] != 0;
+                                found.stream_diagnostics[i] != 0);
+    cut_short += found.stream_diagnostics[i] != 0;
   }
   CHECK(different == 0);
   // Some of them walk round for ever.
   CHECK(cut_short > 0);
-  CHECK(found.wave_faults == found.single_faults);
+  CHECK(found.stream_diagnostics == found.single_diagnostics);
 }

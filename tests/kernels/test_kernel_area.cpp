@@ -2,10 +2,10 @@
 // host's, and what a picture gains.
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include "catch2.hpp"
 
 #include "device_scene/device_scene.hpp"
 #include "device_scene/params.hpp"
@@ -30,7 +30,7 @@ kernel void probe(SCENE_PARAMETERS, global const float4 *points, global const fl
   Ray ray = {point + (real)0.001 * normal, -normal};
   Hit here = hit_none(INFINITY);
   geometry_closest(&scene.geometry, ray, &here);
-  out[i] = coverage_probe(&scene, here, point, normal, radius2, random4(stream, 0), &rays, counters);
+  out[i] = kernel_area_probe(&scene, here, point, normal, radius2, random4(stream, 0), &rays, counters);
   traced[i] = rays;
 }
 kernel void holds(global const TriangleBlock *blocks, global const float4 *weights, global const float4 *offsets,
@@ -43,16 +43,16 @@ kernel void holds(global const TriangleBlock *blocks, global const float4 *weigh
 kernel void means(global const uint *probes, global uint *states, uint each, uint pixels) {
   uint i = get_global_id(0), state = 0;
   if (i >= pixels) return;
-  for (uint k = 0; k < each; ++k) states[i * each + k] = state = coverage_add(state, probes[i * each + k], k);
+  for (uint k = 0; k < each; ++k) states[i * each + k] = state = kernel_area_add(state, probes[i * each + k], k);
 }
 // For 64 passes of pixel `pixel` with four points each, of pixels in each of the states.
 kernel void wanted(global const uint *states, global uint *asked, uint pixel) {
   uint i = get_global_id(0), pass = i / 4 % 64;
-  if (i < 3 * 64 * 4) asked[i] = coverage_wanted(states[i / (64 * 4)], pixel, pass, i % 4 == pass % 4);
+  if (i < 3 * 64 * 4) asked[i] = kernel_area_wanted(states[i / (64 * 4)], pixel, pass, i % 4 == pass % 4);
 }
 kernel void covered(global const uint *states, global const float *shares, global float *out, uint count) {
   uint i = get_global_id(0);
-  if (i < count) out[i] = coverage_of(states[i], shares[i]);
+  if (i < count) out[i] = kernel_area_of(states[i], shares[i]);
 }
 )";
 
@@ -130,7 +130,7 @@ TEST_CASE("probes find how much of a disc lies on surfaces") {
       {"on a thin wall", {0, 1, 0, 0}, up, 2 * beside_line(0.125) - 1, 2 * beside_line(0.25) - 1}};
   constexpr cl_uint each = 1 << 16;
   const Scene scene = places();
-  const DeviceScene device_scene = upload_scene(scene, test_device());
+  const DeviceScene device_scene = update_device_scene(scene, test_device());
   cl::Program program = build_test_program(source, effect_bits(find_effects(scene)));
   std::vector<float4> points, normals;
   for (const Place& place : expected) {
@@ -172,9 +172,9 @@ TEST_CASE("probes find how much of a disc lies on surfaces") {
   for (std::size_t p = 0; p < expected.size(); ++p) {
     double sum[2] = {}, number[2] = {};
     for (std::size_t i = p * each; i < (p + 1) * each; ++i) {
-      REQUIRE((probes[i] & COVERAGE_PROBED) != 0);
-      const int disc = (probes[i] & COVERAGE_OF_HALF) ? 1 : 0;
-      sum[disc] += probes[i] >> COVERAGE_SHIFT & 3u;
+      REQUIRE((probes[i] & KERNEL_AREA_PROBED) != 0);
+      const int disc = (probes[i] & KERNEL_AREA_OF_HALF) ? 1 : 0;
+      sum[disc] += probes[i] >> KERNEL_AREA_SHIFT & 3u;
       number[disc] += 1;
     }
     INFO(expected[p].name);
@@ -198,7 +198,7 @@ TEST_CASE("whether a triangle holds a point beside a hit, against double precisi
     Vec3 corners[3];
     for (int v = 0; v < 3; ++v)
       for (int k = 0; k < 3; ++k) {
-        // The third corner of a needle lies by the second.
+        // The third corner of a sliver lies by the second.
         const double x = v == 2 && thin < 1 ? corners[1][k] + thin * size * random.uniform(-1, 1)
                                             : size * random.uniform(-1, 1);
         corners[v][k] = block.position[v][k][i % 8] = static_cast<float>(x);
@@ -219,15 +219,15 @@ TEST_CASE("whether a triangle holds a point beside a hit, against double precisi
              test_device().upload(weights, "weights"), test_device().upload(offsets, "offsets"), out,
              static_cast<cl_uint>(count));
   const auto found = test_device().download<cl_uint>(out, count);
-  std::size_t wrong = 0, held = 0, needles = 0;
+  std::size_t wrong = 0, held = 0, slivers = 0;
   for (std::size_t i = 0; i < count; ++i) {
     wrong += expected[i] >= 0 && static_cast<int>(found[i]) != expected[i];
     held += expected[i] == 1;
-    needles += i % 4 == 0 && expected[i] == 0;
+    slivers += i % 4 == 0 && expected[i] == 0;
   }
   CHECK(wrong == 0);
   CHECK(held > count / 20);
-  CHECK(needles > count / 10);
+  CHECK(slivers > count / 10);
 }
 
 TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {
@@ -238,13 +238,13 @@ TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const double covered = static_cast<double>(i / each) / pixels;
     // Other bits of the word, as the normal's, must not matter; some points have no probe.
-    probes[i] = static_cast<cl_uint>(random.uniform(0, 1 << 24)) | BEYOND_RECEIVER;
+    probes[i] = static_cast<cl_uint>(random.uniform(0, 1 << 24)) | BEYOND_DIFFUSE;
     if (random.uniform() < 0.1) continue;
-    probes[i] |= COVERAGE_PROBED | (random.uniform() < 0.25 ? COVERAGE_OF_HALF : 0u) |
+    probes[i] |= KERNEL_AREA_PROBED | (random.uniform() < 0.25 ? KERNEL_AREA_OF_HALF : 0u) |
                  (random.uniform() < covered ? 1u
                   : random.uniform() < 0.1   ? 2u
                                              : 0u)
-                     << COVERAGE_SHIFT;
+                     << KERNEL_AREA_SHIFT;
   }
   const auto in = test_device().upload(probes, "probes");
   const auto states = test_device().buffer(probes.size() * sizeof(cl_uint), "states");
@@ -259,13 +259,13 @@ TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {
     unsigned sum[2] = {}, number[2] = {};
     for (std::size_t k = 0; k < each; ++k) {
       const std::size_t i = pixel * each + k;
-      if (probes[i] & COVERAGE_PROBED) {
-        const int disc = (probes[i] & COVERAGE_OF_HALF) ? 1 : 0;
+      if (probes[i] & KERNEL_AREA_PROBED) {
+        const int disc = (probes[i] & KERNEL_AREA_OF_HALF) ? 1 : 0;
         if (number[disc] == 126) {
           number[disc] = 63;
           sum[disc] = (sum[disc] + k % 2) / 2;
         }
-        sum[disc] += probes[i] >> COVERAGE_SHIFT & 3u;
+        sum[disc] += probes[i] >> KERNEL_AREA_SHIFT & 3u;
         ++number[disc];
       }
       const double whole = (sum[0] + 1.0) / (number[0] + 1.0), half = (sum[1] + 1.0) / (number[1] + 1.0);
@@ -287,7 +287,7 @@ TEST_CASE("a pixel whose probes find full discs alone divides by 1 for ever, and
   constexpr std::size_t each = 1000;
   std::vector<cl_uint> probes(each);
   for (std::size_t k = 0; k < each; ++k)
-    probes[k] = COVERAGE_PROBED | (k % 4 == 3 ? COVERAGE_OF_HALF : 0u) | 1u << COVERAGE_SHIFT;
+    probes[k] = KERNEL_AREA_PROBED | (k % 4 == 3 ? KERNEL_AREA_OF_HALF : 0u) | 1u << KERNEL_AREA_SHIFT;
   const auto states = test_device().buffer(each * sizeof(cl_uint), "states");
   cl::Kernel means(program, "means");
   const auto in = test_device().upload(probes, "probes");

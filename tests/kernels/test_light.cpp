@@ -28,8 +28,8 @@ kernel void sample(SCENE_PARAMETERS, global const float4 *uniform, global Output
   Ray ray = {position.xyz, light.direction};
   out[i].direction = (float4)(light.direction, light.pdf);
   out[i].light = (float4)(light.distance, 0, 0, 0);
-  uint faults = 0;
-  bool occluded = geometry_occluded(&scene.geometry, ray, light.distance - light.margin, &faults);
+  uint diagnostics = 0;
+  bool occluded = geometry_occluded(&scene.geometry, ray, light.distance - light.margin, &diagnostics);
   out[i].weight = (float4)(light.weight, occluded);
   Hit hit = hit_none(INFINITY);
   if (!(light.pdf > 0) || !geometry_closest(&scene.geometry, ray, &hit)) return;
@@ -117,7 +117,7 @@ void add_light(Scene& scene, Shape3 shape, const Transform& transform, double ra
 struct Lights {
   DeviceScene scene;
   Params params{};
-  explicit Lights(const Scene& spec) : scene(upload_scene(spec, test_device(), 1)) {
+  explicit Lights(const Scene& spec) : scene(update_device_scene(spec, test_device(), 1)) {
     params.emitter_count = scene.emitter_count;
     params.emitter_density = static_cast<float>(1 / scene.emitted_power);
     params.plane_count = scene.plane_count;

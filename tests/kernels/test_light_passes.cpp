@@ -10,13 +10,13 @@ using namespace causticl;
 
 namespace {
 
-constexpr unsigned with_layers = EFFECT_ALL | OUTPUT_LAYERS;
+constexpr unsigned with_layers = EFFECT_ALL | OUTPUT_LIGHT_PASSES;
 
 /// By the regular expressions of layers.cl, for a path from the camera E to the light L.
 uint layer_of(const std::string& path) {
   static const std::regex direct("ES*D?L"), caustic("ES*DS+L");
-  if (std::regex_match(path, direct)) return LAYER_DIRECT;
-  return std::regex_match(path, caustic) ? LAYER_CAUSTIC : LAYER_INDIRECT;
+  if (std::regex_match(path, direct)) return LIGHT_PASS_DIRECT;
+  return std::regex_match(path, caustic) ? LIGHT_PASS_CAUSTIC : LIGHT_PASS_INDIRECT;
 }
 
 /// Photons of a surface and of the medium alike: their normals are directions there.
@@ -29,7 +29,7 @@ std::vector<Photon> random_photons(RandomInputs& random, std::size_t count, bool
                   static_cast<uint>(random.engine()) & 0xffffu};
     for (float& x : photon.position) x = static_cast<float>(random.uniform(-1, 1));
     if (in_medium) photon.normal = IN_MEDIUM | (static_cast<uint>(random.engine()) & 0x3fffffffu);
-    photon.flux_b |= static_cast<uint>(random.engine() % LAYER_COUNT) << PHOTON_LAYER_SHIFT;
+    photon.flux_b |= static_cast<uint>(random.engine() % LIGHT_PASS_COUNT) << PHOTON_LIGHT_PASS_SHIFT;
     photons.push_back(photon);
   }
   return photons;
@@ -39,7 +39,7 @@ std::vector<Photon> random_photons(RandomInputs& random, std::size_t count, bool
 std::vector<Photon> of_layer(const std::vector<Photon>& photons, uint layer) {
   std::vector<Photon> result;
   for (Photon photon : photons) {
-    if (photon.flux_b >> PHOTON_LAYER_SHIFT != layer) continue;
+    if (photon.flux_b >> PHOTON_LIGHT_PASS_SHIFT != layer) continue;
     photon.flux_b &= 0xffffu;
     result.push_back(photon);
   }
@@ -56,13 +56,13 @@ TEST_CASE("the layer of every path of up to ten vertices is that of its regular 
 kernel void classify(global const uint2 *paths, global uint2 *layers, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  uint bits = paths[i].x, length = paths[i].y, history = HISTORY_NO_RECEIVER, receiver = 0;
-  for (uint k = 0; k < length; ++k) history = history_after(history, bits >> k & 1u);
-  layers[i].x = history_layer(history);
-  while (receiver < length && (bits >> receiver & 1u)) ++receiver;
-  history = HISTORY_STRAIGHT;
-  for (uint k = length; k > receiver + 1; --k) history = history_after(history, bits >> (k - 1) & 1u);
-  layers[i].y = history_layer(history);
+  uint bits = paths[i].x, length = paths[i].y, prefix = PREFIX_NO_DIFFUSE, diffuse_vertex = 0;
+  for (uint k = 0; k < length; ++k) prefix = prefix_after(prefix, bits >> k & 1u);
+  layers[i].x = prefix_light_pass(prefix);
+  while (diffuse_vertex < length && (bits >> diffuse_vertex & 1u)) ++diffuse_vertex;
+  prefix = PREFIX_DIRECT;
+  for (uint k = length; k > diffuse_vertex + 1; --k) prefix = prefix_after(prefix, bits >> (k - 1) & 1u);
+  layers[i].y = prefix_light_pass(prefix);
 }
 )");
   std::vector<uint2> paths;
@@ -121,9 +121,9 @@ kernel void collect(global const float4 *points, global const uint *starts, glob
   for (const bool in_medium : {false, true}) {
     const auto photons = random_photons(random, 50000, in_medium);
     const auto sums = collect(photons, in_medium);
-    const auto direct = collect(of_layer(photons, LAYER_DIRECT), in_medium);
-    const auto caustic = collect(of_layer(photons, LAYER_CAUSTIC), in_medium);
-    const auto indirect = collect(of_layer(photons, LAYER_INDIRECT), in_medium);
+    const auto direct = collect(of_layer(photons, LIGHT_PASS_DIRECT), in_medium);
+    const auto caustic = collect(of_layer(photons, LIGHT_PASS_CAUSTIC), in_medium);
+    const auto indirect = collect(of_layer(photons, LIGHT_PASS_INDIRECT), in_medium);
     std::uint64_t found = 0;
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -150,10 +150,10 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
 
   // Of a launch: visible points, then their layers.
   std::vector<VisiblePoint> visible(pixels * samples);
-  std::vector<VisibleLayers> layers(visible.size());
+  std::vector<VisibleLightPasses> layers(visible.size());
   for (std::size_t i = 0; i < visible.size(); ++i) {
     VisiblePoint& v = visible[i];
-    v.normal = pack_normal({0, 1, 0}) | (random.uniform() < 0.3 ? BEYOND_RECEIVER : 0u);
+    v.normal = pack_normal({0, 1, 0}) | (random.uniform() < 0.3 ? BEYOND_DIFFUSE : 0u);
     for (int c = 0; c < 3; ++c) {
       v.position[c] = static_cast<float>(random.uniform(-1, 1));
       v.weight[c] = static_cast<float>(random.uniform());
@@ -166,7 +166,7 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   constexpr uint broken = 17;
   visible[broken * samples].radiance[1] = NAN;
   const std::size_t bytes = visible.size() * sizeof(VisiblePoint);
-  std::vector<unsigned char> launch(bytes + layers.size() * sizeof(VisibleLayers));
+  std::vector<unsigned char> launch(bytes + layers.size() * sizeof(VisibleLightPasses));
   std::memcpy(launch.data(), visible.data(), bytes);
   std::memcpy(launch.data() + bytes, layers.data(), launch.size() - bytes);
 
@@ -182,38 +182,39 @@ TEST_CASE("the film has the layers of visible points and of photons by their wei
   auto in = test_device().upload(launch, "visible points");
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
   auto state = test_device().upload(std::vector<SppmPixel>(first + pixels), "pixels");
-  const std::size_t film_bytes = (first + pixels) * (sizeof(FilmPixel) + sizeof(FilmLayers));
+  const std::size_t film_bytes = (first + pixels) * (sizeof(FilmPixel) + sizeof(FilmLightPasses));
   auto film = test_device().buffer(film_bytes, "film");
   test_device().clear(film, film_bytes);
   run_kernel(program, "gather_photons", pixels, in, state, film, map.starts, map.sorted, counter,
              one_grid(grid, photons.size()), params,
              test_device().upload(std::vector<WallGrid>{{}}, "walls"));
   const auto sums =
-      test_device().download<FilmLayers>(film, first + pixels, (first + pixels) * sizeof(FilmPixel));
+      test_device().download<FilmLightPasses>(film, first + pixels, (first + pixels) * sizeof(FilmPixel));
   const auto whole = test_device().download<FilmPixel>(film, first + pixels);
 
-  const std::vector<Photon> apart[] = {of_layer(photons, LAYER_DIRECT), of_layer(photons, LAYER_CAUSTIC),
-                                       of_layer(photons, LAYER_INDIRECT)};
+  const std::vector<Photon> apart[] = {of_layer(photons, LIGHT_PASS_DIRECT),
+                                       of_layer(photons, LIGHT_PASS_CAUSTIC),
+                                       of_layer(photons, LIGHT_PASS_INDIRECT)};
   double worst = 0, worst_sum = 0;
   std::size_t wrong = 0;
   for (uint i = 0; i < pixels; ++i) {
-    double expected[LAYER_COUNT][3] = {};
+    double expected[LIGHT_PASS_COUNT][3] = {};
     for (uint s = 0; s < samples; ++s) {
       const VisiblePoint& v = visible[i * samples + s];
-      for (uint layer = 0; layer < LAYER_COUNT; ++layer) {
+      for (uint layer = 0; layer < LIGHT_PASS_COUNT; ++layer) {
         const auto found = gather_brute_force({v.position[0], v.position[1], v.position[2], v.normal},
                                               apart[layer], params.radius2);
         const std::uint64_t flux[3] = {found.red, found.green, found.blue};
         for (int c = 0; c < 3; ++c) {
           expected[layer][c] += layers[i * samples + s].radiance[layer][c] / samples;
-          expected[v.normal & BEYOND_RECEIVER ? LAYER_INDIRECT : layer][c] +=
+          expected[v.normal & BEYOND_DIFFUSE ? LIGHT_PASS_INDIRECT : layer][c] +=
               v.weight[c] * 0.125 / PHOTON_FLUX_UNIT / (M_PI * params.radius2) * double(flux[c]) / samples;
         }
       }
     }
     for (int c = 0; c < 3; ++c) {
       double total = 0;
-      for (uint layer = 0; layer < LAYER_COUNT; ++layer) {
+      for (uint layer = 0; layer < LIGHT_PASS_COUNT; ++layer) {
         const double value = double(sums[first + i].sum[layer][c]) + sums[first + i].low[layer][c];
         if (i == broken)
           wrong += value != 0;
@@ -240,8 +241,8 @@ kernel void add_many(global const float *samples, global FilmPixel *film, volati
   if (i >= pixels) return;
   for (uint n = 0; n < passes; ++n) {
     Radiance radiance = radiance_none();
-    global const float *s = samples + (i * passes + n) * 3 * LAYER_COUNT;
-    for (uint k = 0; k < LAYER_COUNT; ++k) {
+    global const float *s = samples + (i * passes + n) * 3 * LIGHT_PASS_COUNT;
+    for (uint k = 0; k < LIGHT_PASS_COUNT; ++k) {
       radiance.layer[k] = convert_real3(vload3(k, s));
       radiance.sum += radiance.layer[k];
     }
@@ -250,7 +251,7 @@ kernel void add_many(global const float *samples, global FilmPixel *film, volati
 }
 )",
                                     with_layers);
-  constexpr uint pixels = 16, passes = 20000, numbers = 3 * LAYER_COUNT;
+  constexpr uint pixels = 16, passes = 20000, numbers = 3 * LIGHT_PASS_COUNT;
   std::vector<float> samples(std::size_t{pixels} * passes * numbers);
   std::vector<long double> expected(pixels * numbers);
   uint bad = 0;
@@ -265,13 +266,13 @@ kernel void add_many(global const float *samples, global FilmPixel *film, volati
     for (uint k = 0; k < numbers; ++k) expected[estimate / passes * numbers + k] += sample[k];
   }
   auto in = test_device().upload(samples, "samples");
-  const std::size_t bytes = pixels * (sizeof(FilmPixel) + sizeof(FilmLayers));
+  const std::size_t bytes = pixels * (sizeof(FilmPixel) + sizeof(FilmLightPasses));
   auto film = test_device().buffer(bytes, "film");
   test_device().clear(film, bytes);
   auto counter = test_device().upload(std::vector<Counters>{{}}, "counters");
   run_kernel(program, "add_many", pixels, in, film, counter, pixels, passes);
   CHECK(test_device().download<Counters>(counter, 1)[0].non_finite == bad);
-  const auto layers = test_device().download<FilmLayers>(film, pixels, pixels * sizeof(FilmPixel));
+  const auto layers = test_device().download<FilmLightPasses>(film, pixels, pixels * sizeof(FilmPixel));
   double worst = 0;
   for (uint i = 0; i < pixels * numbers; ++i) {
     const uint k = i % numbers;

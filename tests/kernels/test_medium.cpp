@@ -20,7 +20,7 @@ kernel void turn(global const float4 *uniform, global float4 *out, uint count, f
   if (i < count) out[i] = (float4)(phase_sample(g, direction.xyz, uniform[i].xy), 0);
 }
 typedef struct {
-  float4 carried;     // w: random number that chooses the channel
+  float4 throughput;     // w: random number that chooses the channel
   float4 extinction;  // w: random number that chooses the distance
   float4 end;         // x: t_max
 } Flight;
@@ -28,10 +28,10 @@ kernel void fly(global const Flight *in, global float4 *out, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
   Medium medium = {in[i].extinction.xyz, (real3)(0, 0, 0), 0};
-  real3 carried = in[i].carried.xyz;
+  real3 throughput = in[i].throughput.xyz;
   real distance = -1;
-  bool interacts = medium_flight(&medium, in[i].end.x, (real2)(in[i].carried.w, in[i].extinction.w), &carried, &distance);
-  out[i] = (float4)(carried, interacts ? distance : -1);
+  bool interacts = medium_flight(&medium, in[i].end.x, (real2)(in[i].throughput.w, in[i].extinction.w), &throughput, &distance);
+  out[i] = (float4)(throughput, interacts ? distance : -1);
 }
 kernel void pack(global const float4 *in, global float4 *out, uint count) {
   uint i = get_global_id(0);
@@ -52,11 +52,11 @@ kernel void cut(global const Flight *in, global float4 *out, uint count, float s
   uint i = get_global_id(0);
   if (i >= count) return;
   Medium medium = {in[i].extinction.xyz, (real3)(0, 0, 0), 0};
-  real3 carried = in[i].carried.xyz;
+  real3 throughput = in[i].throughput.xyz;
   real distance = -1, begin = -1, length = -1;
   real3 weight = (real3)(0, 0, 0);
-  if (medium_flight(&medium, in[i].end.x, (real2)(in[i].carried.w, in[i].extinction.w), &carried, &distance))
-    weight = medium_segment(&medium, in[i].carried.xyz, in[i].end.x, distance, segment, &begin, &length);
+  if (medium_flight(&medium, in[i].end.x, (real2)(in[i].throughput.w, in[i].extinction.w), &throughput, &distance))
+    weight = medium_segment(&medium, in[i].throughput.xyz, in[i].end.x, distance, segment, &begin, &length);
   out[2 * i] = (float4)(weight, begin);
   out[2 * i + 1] = (float4)(distance, length, 0, 0);
 }
@@ -130,14 +130,14 @@ TEST_CASE("directions in the medium follow the phase function") {
 TEST_CASE(
     "free flight weighs every distance by transmittance over its density, and loses nothing on average") {
   struct Flight {
-    float4 carried, extinction, end;
+    float4 throughput, extinction, end;
   };
   constexpr std::size_t count = 1 << 20;
   RandomInputs random(223);
   std::vector<Flight> inputs(count);
   for (auto& input : inputs) {
     const auto channel = [&] { return random.uniform() < 0.2 ? 0.0 : random.uniform(); };
-    input.carried = to_float4({channel(), channel(), channel()}, uniform24(random));
+    input.throughput = to_float4({channel(), channel(), channel()}, uniform24(random));
     input.extinction = to_float4({3 * channel(), 3 * channel(), 3 * channel()}, uniform24(random));
     input.end.x = random.uniform() < 0.1 ? INFINITY : static_cast<float>(random.uniform(0, 3));
   }
@@ -149,13 +149,14 @@ TEST_CASE(
   // What passes the end, over what should: by transmittance to it. What interacts, over what is taken away.
   double passed[3] = {}, passes[3] = {}, taken[3] = {}, takes[3] = {};
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 carried = to_vec3(inputs[i].carried), extinction = to_vec3(inputs[i].extinction),
+    const Vec3 throughput = to_vec3(inputs[i].throughput), extinction = to_vec3(inputs[i].extinction),
                found = to_vec3(outputs[i]);
-    const double sum = carried.x + carried.y + carried.z, end = inputs[i].end.x, distance = outputs[i].w;
+    const double sum = throughput.x + throughput.y + throughput.z, end = inputs[i].end.x,
+                 distance = outputs[i].w;
     const bool interacts = distance >= 0;
     interactions += interacts;
     if (sum == 0 || max_component(extinction) == 0) {
-      wrong += interacts || !(found == carried);
+      wrong += interacts || !(found == throughput);
       continue;
     }
     const auto left = [&](int c, double t) {
@@ -163,14 +164,14 @@ TEST_CASE(
     };
     double density = 0, after = 0;
     for (int c = 0; c < 3; ++c)
-      density += carried[c] / sum * (interacts ? extinction[c] * left(c, distance) : left(c, end));
+      density += throughput[c] / sum * (interacts ? extinction[c] * left(c, distance) : left(c, end));
     for (int c = 0; c < 3; ++c) {
-      const double exact = carried[c] * left(c, interacts ? distance : end) / density;
+      const double exact = throughput[c] * left(c, interacts ? distance : end) / density;
       wrong += !(std::fabs(found[c] - exact) <= 3e-5 * exact + 1e-30);
       after += interacts ? found[c] * extinction[c] : found[c];
       (interacts ? taken : passed)[c] += interacts ? found[c] * extinction[c] : found[c];
-      passes[c] += carried[c] * left(c, end);
-      takes[c] += carried[c] * (1 - left(c, end));
+      passes[c] += throughput[c] * left(c, end);
+      takes[c] += throughput[c] * (1 - left(c, end));
     }
     wrong += interacts && !(distance < end);
     grown += !(after <= sum * (1 + 1e-5));
@@ -207,7 +208,7 @@ TEST_CASE("directions are packed to two ten-thousandths, and marked") {
 
 TEST_CASE("the segment that a flight ends in carries transmittance over the probability of ending there") {
   struct Flight {
-    float4 carried, extinction, end;
+    float4 throughput, extinction, end;
   };
   constexpr std::size_t count = 1 << 19;
   constexpr float segment = 0.7f;
@@ -215,7 +216,7 @@ TEST_CASE("the segment that a flight ends in carries transmittance over the prob
   std::vector<Flight> inputs(count);
   for (auto& input : inputs) {
     const auto channel = [&] { return random.uniform() < 0.2 ? 0.0 : random.uniform(); };
-    input.carried = to_float4({channel(), channel(), channel()}, uniform24(random));
+    input.throughput = to_float4({channel(), channel(), channel()}, uniform24(random));
     input.extinction = to_float4({3 * channel(), 3 * channel(), 3 * channel()}, uniform24(random));
     input.end.x = random.uniform() < 0.1 ? INFINITY : static_cast<float>(random.uniform(0, 3));
   }
@@ -229,18 +230,18 @@ TEST_CASE("the segment that a flight ends in carries transmittance over the prob
     if (begin < 0) continue;  // it passes
     ++ended;
     last += length < segment;
-    const Vec3 carried = to_vec3(inputs[i].carried), extinction = to_vec3(inputs[i].extinction);
-    const double sum = carried.x + carried.y + carried.z, end = inputs[i].end.x;
-    // Segments lie side by side from the origin on, and the last one ends where the ray does.
+    const Vec3 throughput = to_vec3(inputs[i].throughput), extinction = to_vec3(inputs[i].extinction);
+    const double sum = throughput.x + throughput.y + throughput.z, end = inputs[i].end.x;
+    // Segments lie in a batch from the origin on, and the last one ends where the ray does.
     wrong += std::fabs(begin / segment - std::round(begin / segment)) > 1e-6 * (1 + begin) ||
              !(begin <= distance * (1 + 1e-6)) || !(distance <= (begin + length) * (1 + 1e-6)) ||
              std::fabs(length - std::min<double>(segment, end - begin)) > 1e-6 * (1 + begin);
     double probability = 0;
     for (int c = 0; c < 3; ++c)
       probability +=
-          carried[c] / sum * std::exp(-extinction[c] * begin) * -std::expm1(-extinction[c] * length);
+          throughput[c] / sum * std::exp(-extinction[c] * begin) * -std::expm1(-extinction[c] * length);
     for (int c = 0; c < 3; ++c) {
-      const double exact = carried[c] * std::exp(-extinction[c] * begin) / probability;
+      const double exact = throughput[c] * std::exp(-extinction[c] * begin) / probability;
       wrong += !(std::fabs(to_vec3(outputs[2 * i])[c] - exact) <= 1e-4 * exact + 1e-30);
     }
   }

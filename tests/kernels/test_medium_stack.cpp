@@ -15,14 +15,14 @@ kernel void run(global const uint *steps, global uint4 *out, uint sequences, uin
   uint s = get_global_id(0);
   if (s >= sequences) return;
   MediumStack stack = medium_stack_none();
-  uint faults = 0;
+  uint diagnostics = 0;
   for (uint i = s * length; i < (s + 1u) * length; ++i) {
     uint material = steps[i] / 2u;
     if (steps[i] % 2u == 0)
-      medium_stack_enter(&stack, material, &faults);
+      medium_stack_enter(&stack, material, &diagnostics);
     else if (!medium_stack_leave(&stack, material))
-      faults |= FAULT_MEDIA_LEFT;
-    out[i] = (uint4)(medium_stack_top(&stack), stack.count, medium_stack_holds(&stack, material) ? 1u : 0u, faults);
+      diagnostics |= DIAGNOSTIC_MEDIA_LEFT;
+    out[i] = (uint4)(medium_stack_top(&stack), stack.count, medium_stack_holds(&stack, material) ? 1u : 0u, diagnostics);
   }
 }
 )";
@@ -50,24 +50,24 @@ TEST_CASE("the greatest material of those entered and not left fills the place")
   std::size_t wrong = 0, times_full = 0, times_left = 0;
   for (std::size_t s = 0; s < sequences; ++s) {
     std::vector<uint> held;
-    uint faults = 0;
+    uint diagnostics = 0;
     for (std::size_t i = s * length; i < (s + 1) * length; ++i) {
       const uint material = steps[i] / 2;
       const auto found = std::find(held.begin(), held.end(), material);
       if (steps[i] % 2 == 0) {
         if (held.size() == capacity)
-          faults |= full, ++times_full;
+          diagnostics |= full, ++times_full;
         else
           held.push_back(material);
       } else if (found == held.end()) {
-        faults |= left, ++times_left;
+        diagnostics |= left, ++times_left;
       } else {
         held.erase(found);
       }
       const uint top = held.empty() ? outside : *std::max_element(held.begin(), held.end());
       const bool holds = std::find(held.begin(), held.end(), material) != held.end();
       wrong += results[i].x != top || results[i].y != held.size() || results[i].z != (holds ? 1u : 0u) ||
-               results[i].w != faults;
+               results[i].w != diagnostics;
     }
   }
   CHECK(wrong == 0);

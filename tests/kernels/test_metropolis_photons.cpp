@@ -1,7 +1,8 @@
-// Guided photons: mutated random numbers and marked cells on the device, and what whole passes bring.
+// Metropolis photons: mutated random numbers and cells of the visibility grid on the device, and what whole
+// passes bring.
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "catch2.hpp"
 
 #include "base/error.hpp"
 #include "device_fixture.hpp"
@@ -24,15 +25,15 @@ kernel void draw(global uint4 *path, global uint4 *copies, uint count, uint seed
   path[i] = convert_uint4(random4(stream, dimension) * 16777216.0f);
   copies[i] = convert_uint4(random4(copy, dimension) * 16777216.0f);
 }
-kernel void mark(global const float4 *points, global const float4 *normals, volatile global uint *marks, Grid cells,
+kernel void mark(global const float4 *points, global const float4 *normals, volatile global uint *visibility, Grid cells,
                  float reach, uint count) {
   uint i = get_global_id(0);
-  if (i < count) mark_cells(marks, cells, normals[i].xyz, points[i].xyz, reach);
+  if (i < count) mark_visible_cells(visibility, cells, normals[i].xyz, points[i].xyz, reach);
 }
-kernel void look_up(global const float4 *points, global const float4 *normals, global const uint *marks, Grid cells,
-                    global uint *marked, uint count) {
+kernel void look_up(global const float4 *points, global const float4 *normals, global const uint *visibility, Grid cells,
+                    global uint *visible, uint count) {
   uint i = get_global_id(0);
-  if (i < count) marked[i] = is_marked(marks, cells, normal_unpack(normal_pack(normals[i].xyz)), points[i].xyz);
+  if (i < count) visible[i] = is_visible(visibility, cells, normal_unpack(normal_pack(normals[i].xyz)), points[i].xyz);
 }
 )";
 
@@ -142,22 +143,24 @@ TEST_CASE("a copy's numbers are near those of its path, either way alike, and fr
   }
 }
 
-TEST_CASE("a path that is no copy has the numbers of programs without guided photons") {
+TEST_CASE("a path that is no copy has the numbers of programs without Metropolis photons") {
   auto with = build_test_program(source, EFFECT_GUIDED_PHOTONS), without = build_test_program(source);
   const auto a = draw(with, 4096, 9, 0).path, b = draw(without, 4096, 9, 0).path;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (int c = 0; c < 4; ++c) REQUIRE(a[i][c] == b[i][c]);
 }
 
-TEST_CASE("photons that a visible point may gather nearby lie in marked cells; those behind a wall do not") {
+TEST_CASE(
+    "photons that a visible point may gather nearby lie in cells of the visibility grid; those behind a wall "
+    "do not") {
   auto program = build_test_program(source, EFFECT_GUIDED_PHOTONS);
   RandomInputs random(20261126);
   const std::size_t count = 20000;
   DeviceScene scene;
   scene.extent = 4;
   const Grid cells = grid_of(scene, 0.25, 1 << 22);
-  const auto marks = test_device().buffer(buckets_of(cells), "marks");
-  test_device().clear(marks, buckets_of(cells));
+  const auto visibility = test_device().buffer(buckets_of(cells), "marks");
+  test_device().clear(visibility, buckets_of(cells));
   const double reach = 0.12;
   std::vector<Vector> points, normals, near, near_normals, behind, behind_normals;
   for (std::size_t i = 0; i < count; ++i) {
@@ -182,23 +185,23 @@ TEST_CASE("photons that a visible point may gather nearby lie in marked cells; t
   }
   const auto n = static_cast<cl_uint>(points.size());
   run_kernel(program, "mark", n, test_device().upload(points, "points"),
-             test_device().upload(normals, "normals"), marks, cells, static_cast<float>(reach), n);
-  const auto marked = [&](const std::vector<Vector>& at, const std::vector<Vector>& facing) {
+             test_device().upload(normals, "normals"), visibility, cells, static_cast<float>(reach), n);
+  const auto visible = [&](const std::vector<Vector>& at, const std::vector<Vector>& facing) {
     const auto result = test_device().buffer(at.size() * sizeof(cl_uint), "marked");
     run_kernel(program, "look_up", at.size(), test_device().upload(at, "points"),
-               test_device().upload(facing, "normals"), marks, cells, result,
+               test_device().upload(facing, "normals"), visibility, cells, result,
                static_cast<cl_uint>(at.size()));
     const auto values = test_device().download<cl_uint>(result, at.size());
     return static_cast<std::size_t>(std::count(values.begin(), values.end(), 1u));
   };
-  CHECK(marked(near, near_normals) == near.size());
-  CHECK(marked(behind, behind_normals) == 0);
+  CHECK(visible(near, near_normals) == near.size());
+  CHECK(visible(behind, behind_normals) == 0);
   std::vector<Vector> beside = points;
   for (auto& p : beside) p[0] += 3.4f;
-  CHECK(marked(beside, normals) == 0);
+  CHECK(visible(beside, normals) == 0);
 }
 
-TEST_CASE("guided photons bring the same light as others, with less noise") {
+TEST_CASE("Metropolis photons bring the same light as others, with less noise") {
   const Spread plain = spread_of(false), guided = spread_of(true);
   double plain_variance = 0, guided_variance = 0, chi2 = 0;
   for (std::size_t i = 0; i < plain.mean.size(); ++i) {
@@ -263,7 +266,7 @@ void check_same_light(const char* name, const Scene& scene, const RenderOptions&
 }  // namespace
 
 TEST_CASE(
-    "guided photons bring the same light: through a medium, dispersion and absorption, layer by layer") {
+    "Metropolis photons bring the same light: through a medium, dispersion and absorption, layer by layer") {
   Scene scene = next_room(true);
   scene.medium = {{0.01, 0.01, 0.01}, {0.02, 0.02, 0.02}, 0.3};
   MaterialSpec glass;
@@ -281,7 +284,7 @@ TEST_CASE(
   check_same_light("all effects", scene, options);
 }
 
-TEST_CASE("guided photons bring the same light: more of them than there was room for") {
+TEST_CASE("Metropolis photons bring the same light: more of them than there was room for") {
   Scene scene = next_room(true);
   scene.max_depth = 40;
   for (auto& material : scene.materials)
@@ -318,14 +321,14 @@ TEST_CASE("guided photons bring the same light: more of them than there was room
   check_same_light("white walls", scene);
 }
 
-TEST_CASE("guided photons bring the same light: in double precision") {
+TEST_CASE("Metropolis photons bring the same light: in double precision") {
   if (!test_device().info().fp64) return;
   RenderOptions options;
   options.precision = Precision::float64;
   check_same_light("double", next_room(true), options);
 }
 
-TEST_CASE("guided photons give the same bits in any order of execution, and are for one device alone") {
+TEST_CASE("Metropolis photons give the same bits in any order of execution, and are for one device alone") {
   const DeviceInfo info = test_device().info();
   const auto pixels = [&](Device& device) {
     Scene scene = next_room(true);

@@ -11,7 +11,7 @@ namespace {
 const char* const source = R"(
 #include "materials/bsdf.cl"
 typedef struct {
-  float4 arriving;  // w: alpha
+  float4 wi;  // w: alpha
   float4 leaving;   // w: ior
   float4 random;
 } Input;
@@ -25,14 +25,14 @@ kernel void lobe(global const Input *in, global Output *out, uint count, uint ki
   uint i = get_global_id(0);
   if (i >= count) return;
   real ior = in[i].leaving.w;
-  Bsdf bsdf = {kind, (real3)(1, 1, 1), ior, lobe_alpha(in[i].arriving.w, kind == MATERIAL_GLASS ? ior : 0),
+  Bsdf bsdf = {kind, (real3)(1, 1, 1), ior, lobe_alpha(in[i].wi.w, kind == MATERIAL_GLASS ? ior : 0),
                (real3)(0.2f, 0.9f, 1.4f), ideal ? (real3)(1e8f, 1e8f, 1e8f) : (real3)(3.9f, 2.4f, 1.6f), 0, false};
-  real3 n = (real3)(0, 0, 1), arriving = convert_real3(in[i].arriving.xyz);
+  real3 n = (real3)(0, 0, 1), wi = convert_real3(in[i].wi.xyz);
   Surface surface = {(real3)(0, 0, 0), n, n, (real2)(0, 0), 0, 0};
-  BsdfSample next = bsdf_sample(&bsdf, &surface, arriving, (real4)(convert_real3(in[i].random.xyz), 0), true);
+  BsdfSample next = bsdf_sample(&bsdf, &surface, wi, (real4)(convert_real3(in[i].random.xyz), 0), true);
   out[i].direction = convert_float4((real4)(next.direction, next.pdf));
   out[i].weight = convert_float4((real4)(next.weight, bsdf.alpha));
-  BsdfSample other = rough_evaluate(&bsdf, &surface, arriving, facing_normal(&surface, arriving),
+  BsdfSample other = rough_evaluate(&bsdf, &surface, wi, facing_normal(&surface, wi),
                                     convert_real3(in[i].leaving.xyz));
   out[i].value = convert_float4((real4)(other.weight * other.pdf, other.pdf));
 }
@@ -43,7 +43,7 @@ kernel void conductor(global const float4 *in, global float *out, uint count) {
 )";
 
 struct Input {
-  float4 arriving, leaving, random;
+  float4 wi, leaving, random;
 };
 struct Output {
   float4 direction, weight, value;
@@ -146,9 +146,9 @@ TEST_CASE("rough lobes are those of the equations in double, and reciprocal") {
     const auto values = lobe(there, kind), returned = lobe(back, kind);
     std::size_t wrong = 0, unreciprocal = 0, refracted = 0, reflected = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
-      const Vec3 v = -to_vec3(there[i].arriving), leaving = to_vec3(there[i].leaving);
+      const Vec3 v = -to_vec3(there[i].wi), leaving = to_vec3(there[i].leaving);
       const double side = v.z > 0 ? 1 : -1, ior = there[i].leaving.w, eta = side > 0 ? ior : 1 / ior;
-      RoughLobeOracle oracle{there[i].arriving.w, eta, kind == MATERIAL_GLASS};
+      RoughLobeOracle oracle{there[i].wi.w, eta, kind == MATERIAL_GLASS};
       if (kind == MATERIAL_CONDUCTOR) oracle.eta = {double(0.2f), double(3.9f)};
       const auto exact = oracle.evaluate({v.x, v.y, side * v.z}, {leaving.x, leaving.y, side * leaving.z});
       // Where microfacets are seen edge-on or light is all but totally reflected, rounding counts for more.

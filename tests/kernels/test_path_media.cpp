@@ -15,11 +15,11 @@ kernel void around(SCENE_PARAMETERS, global const float4 *points, global uint4 *
   uint i = get_global_id(0);
   if (i >= count) return;
   SCENE_INIT(params);
-  uint faults = 0;
-  MediumStack stack = media_around(&scene, points[i].xyz, &faults);
+  uint diagnostics = 0;
+  MediumStack stack = media_around(&scene, points[i].xyz, &diagnostics);
   uint bits = 0;
   for (uint k = 0; k < stack.count; ++k) bits |= 1u << (stack.material[k] & 31u);
-  out[i] = (uint4)(medium_stack_top(&stack), bits, faults, stack.count);
+  out[i] = (uint4)(medium_stack_top(&stack), bits, diagnostics, stack.count);
 }
 // Each ray from a place in the media around it to what it meets: materials before and behind, whether it crosses a
 // dielectric (1) and whether something opaque lies behind that in contact (2), and the primitive that is met first.
@@ -27,18 +27,18 @@ kernel void meet(SCENE_PARAMETERS, global const float4 *rays, global uint4 *out,
   uint i = get_global_id(0);
   if (i >= count) return;
   SCENE_INIT(params);
-  uint faults = 0;
+  uint diagnostics = 0;
   Ray ray = {rays[2 * i].xyz, rays[2 * i + 1].xyz};
-  MediumStack stack = media_around(&scene, ray.origin, &faults);
+  MediumStack stack = media_around(&scene, ray.origin, &diagnostics);
   Hit hit = hit_none(INFINITY);
-  uint4 result = (uint4)(MEDIUM_OUTSIDE, MEDIUM_OUTSIDE, 0, faults);
+  uint4 result = (uint4)(MEDIUM_OUTSIDE, MEDIUM_OUTSIDE, 0, diagnostics);
   if (geometry_closest(&scene.geometry, ray, &hit)) {
     Surface surface;
     geometry_surface(&scene.geometry, ray, hit, &surface);
-    Interface interface = contact_meet(&scene, ray, &stack, &hit, &surface, &faults);
+    Interface interface = contact_meet(&scene, ray, &stack, &hit, &surface, &diagnostics);
     result = (uint4)(medium_stack_top(&interface.before), medium_stack_top(&interface.behind),
                      (interface.crosses ? 1u : 0u) | (interface.floor ? 2u : 0u) | (is_dielectric(&scene, &surface) ? 4u : 0u),
-                     faults);
+                     diagnostics);
   }
   out[i] = result;
 }
@@ -55,7 +55,7 @@ struct TestScene {
             R"({"width": 8, "height": 8, "camera": {"position": [0, 0, 9], "target": [0, 0, 0], "fov": 40},
             "lights": [{"type": "environment", "radiance": [1, 1, 1]}], "objects": [)" +
             objects + "]}")),
-        device_scene(upload_scene(scene, test_device())),
+        device_scene(update_device_scene(scene, test_device())),
         params(scene_params(scene, device_scene, 1)),
         first(static_cast<uint>(scene.materials.size())) {}
 

@@ -1,8 +1,8 @@
 // What camera paths see by lobes that they are unlikely to take, against paths that leave it to chance.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <tuple>
+#include "catch2.hpp"
 
 #include "device_scene/device_scene.hpp"
 #include "device_scene/params.hpp"
@@ -29,7 +29,7 @@ kernel void seen(SCENE_PARAMETERS, global const float4 *targets, global float4 *
 }
 )";
 
-/// A lamp, a sky, and balls of glass, of glass in a mirror's view, of varnish and of absorbing, dispersing
+/// A lamp, a sky, and balls of glass, of glass in a mirror's view, of coating and of absorbing, dispersing
 /// glass.
 Scene balls() {
   std::string materials, objects;
@@ -76,7 +76,7 @@ struct Estimate {
 std::vector<Estimate> seen(const Scene& scene, const std::vector<float4>& targets,
                            const std::string& definitions) {
   cl::Program program = build_test_program((definitions + source).c_str());
-  const DeviceScene device_scene = upload_scene(scene, test_device());
+  const DeviceScene device_scene = update_device_scene(scene, test_device());
   Params params = scene_params(scene, device_scene, 5);
   begin_pass(params, 0);
   const auto in = test_device().upload(targets, "targets");
@@ -120,7 +120,7 @@ TEST_CASE("looking along unlikely lobes leaves what paths see as it is, and take
     CAPTURE(max_depth);
     scene.max_depth = max_depth;
     const auto looking = seen(scene, targets, ""),
-               chance = seen(scene, targets, "#define LOOKING_VERTICES 0u\n");
+               chance = seen(scene, targets, "#define SPLITTING_VERTICES 0u\n");
     double worst = 0, looking_mean = 0, chance_mean = 0, looking_variance = 0, chance_variance = 0;
     for (std::size_t i = 0; i < looking.size(); ++i) {
       const double difference = std::fabs(looking[i].mean - chance[i].mean);
@@ -155,7 +155,7 @@ TEST_CASE("a look ends at glass that its index at one wavelength makes rough") {
                  "transform": [{"type": "shift", "x": 0, "y": 2, "z": -8}]}]})");
   const std::vector<float4> targets{to_float4({0, 0, 0}), to_float4({0.05, 0, 0.02})};
   const auto looking = seen(scene, targets, ""),
-             chance = seen(scene, targets, "#define LOOKING_VERTICES 0u\n");
+             chance = seen(scene, targets, "#define SPLITTING_VERTICES 0u\n");
   for (std::size_t i = 0; i < looking.size(); ++i) {
     const double deviation = std::sqrt((looking[i].variance + chance[i].variance) / each);
     INFO(looking[i].mean << " and " << chance[i].mean << ", deviation " << deviation);

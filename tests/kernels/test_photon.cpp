@@ -14,13 +14,13 @@ namespace {
 
 /// Photons of one pass, and the counters after it.
 std::pair<std::vector<Photon>, Counters> traced(const Scene& scene, uint photons) {
-  const DeviceScene device_scene = upload_scene(scene, test_device());
+  const DeviceScene device_scene = update_device_scene(scene, test_device());
   KernelOptions options;
-  options.effects = effect_bits(find_effects(scene)) | OUTPUT_LAYERS;
+  options.effects = effect_bits(find_effects(scene)) | OUTPUT_LIGHT_PASSES;
   Programs programs(test_device(), options, {"photon"});
   const auto counters = test_device().upload(std::vector<Counters>{{}}, "counters");
-  PhotonGuide unguided(device_scene, test_device(), programs, photons, false);
-  PhotonAim aimless(test_device(), device_scene.emitter_count, photons, false);
+  MetropolisPhotons unguided(device_scene, test_device(), programs, photons, false);
+  ProjectionMap aimless(test_device(), device_scene.emitter_count, photons, false);
   PhotonMap map(device_scene, test_device(), programs, counters, unguided, aimless);
   map.prepare(programs);
   Params params = scene_params(scene, device_scene, 7);
@@ -53,14 +53,14 @@ TEST_CASE("photons that a diffuse surface has scattered are marked as indirect, 
   const auto [photons, counters] = traced(scene, 20000);
   // Without rough lobes and media, a photon's light is indirect in the sense of layers.cl after the same
   // events.
-  std::size_t of_layer[LAYER_COUNT] = {}, wrong = 0;
+  std::size_t of_layer[LIGHT_PASS_COUNT] = {}, wrong = 0;
   for (const Photon& photon : photons) {
-    const uint layer = photon.flux_b >> PHOTON_LAYER_SHIFT;
+    const uint layer = photon.flux_b >> PHOTON_LIGHT_PASS_SHIFT;
     ++of_layer[layer];
-    wrong += (layer == LAYER_INDIRECT) != ((photon.normal & INDIRECT_PHOTON) != 0);
+    wrong += (layer == LIGHT_PASS_INDIRECT) != ((photon.normal & INDIRECT_PHOTON) != 0);
   }
   CHECK(wrong == 0);
   for (const std::size_t count : of_layer) CHECK(count > 100);
   CHECK(counters.photons == photons.size());
-  CHECK(counters.indirect == of_layer[LAYER_INDIRECT]);
+  CHECK(counters.indirect == of_layer[LIGHT_PASS_INDIRECT]);
 }

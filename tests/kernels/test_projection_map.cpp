@@ -1,8 +1,8 @@
-// Aimed photons: the table of cells and what it draws, and what whole passes bring.
+// Photons of the projection map: the table of cells and what it draws, and what whole passes bring.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
+#include "catch2.hpp"
 
 #include "chi_square_check.hpp"
 #include "device_fixture.hpp"
@@ -17,17 +17,17 @@ namespace {
 const char* const source = R"(
 #include "photons/projection_map.cl"
 #include "sampling/rng.cl"
-kernel void draw(global const AimCell *cells, global float4 *drawn, uint square, uint count, uint seed) {
+kernel void draw(global const ProjectionCell *cells, global float4 *drawn, uint square, uint count, uint seed) {
   uint i = get_global_id(0);
   if (i >= count) return;
   RandomStream stream = {seed, 0, i};
   real4 random = random4(stream, DIM_EMISSION);
   real u = random.x, v = random.y, share = aim(cells, square, random.z, &u, &v);
-  drawn[i] = (float4)(u, v, share, aim_cell(u, v));
+  drawn[i] = (float4)(u, v, share, projection_cell(u, v));
 }
 kernel void squares(global uint *found, uint emitters) {
   uint i = get_global_id(0);
-  if (i < emitters) found[i] = aim_square(i, emitters);
+  if (i < emitters) found[i] = projection_square(i, emitters);
 }
 )";
 
@@ -35,19 +35,19 @@ constexpr double share = 0.3;
 
 /// Scouts that landed by a few cells at a corner, at a border and within.
 std::vector<cl_uint> landed_by(RandomInputs& random) {
-  std::vector<cl_uint> landed(AIM_CELLS);
+  std::vector<cl_uint> deposited(PROJECTION_CELLS);
   for (const auto& [row, column] : {std::pair{0, 0}, {0, 17}, {20, 31}, {11, 9}, {12, 9}, {12, 10}})
-    landed[static_cast<std::size_t>(row * static_cast<int>(AIM_SIDE) + column)] =
+    deposited[static_cast<std::size_t>(row * static_cast<int>(PROJECTION_SIDE) + column)] =
         static_cast<cl_uint>(random.uniform(20, 400));
-  return landed;
+  return deposited;
 }
 
 /// How likely each cell is to be, by what photon_aim.hpp says.
-std::vector<double> wanted(const std::vector<cl_uint>& landed) {
-  const int side = AIM_SIDE;
+std::vector<double> wanted(const std::vector<cl_uint>& deposited) {
+  const int side = PROJECTION_SIDE;
   const double weights[] = {0.25, 0.5, 0.25};
   double sum = 0;
-  std::vector<double> result(landed.size());
+  std::vector<double> result(deposited.size());
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
       for (int j = 0; j < 3; ++j)
@@ -55,20 +55,21 @@ std::vector<double> wanted(const std::vector<cl_uint>& landed) {
           const int from_row = std::min(std::max(row + j - 1, 0), side - 1);
           const int from_column = std::min(std::max(column + i - 1, 0), side - 1);
           const double here =
-              weights[i] * weights[j] * landed[static_cast<std::size_t>(from_row * side + from_column)];
+              weights[i] * weights[j] * deposited[static_cast<std::size_t>(from_row * side + from_column)];
           result[static_cast<std::size_t>(row * side + column)] += here;
           sum += here;
         }
-  for (double& cell : result) cell = sum > 0 ? (1 - share) / AIM_CELLS + share * cell / sum : 1.0 / AIM_CELLS;
+  for (double& cell : result)
+    cell = sum > 0 ? (1 - share) / PROJECTION_CELLS + share * cell / sum : 1.0 / PROJECTION_CELLS;
   return result;
 }
 
 /// How likely the table makes each.
-std::vector<double> made(const std::vector<AimCell>& cells) {
+std::vector<double> made(const std::vector<ProjectionCell>& cells) {
   std::vector<double> result(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    result[i] += static_cast<double>(cells[i].stay) / AIM_CELLS;
-    result[cells[i].other] += (1 - static_cast<double>(cells[i].stay)) / AIM_CELLS;
+    result[i] += static_cast<double>(cells[i].stay) / PROJECTION_CELLS;
+    result[cells[i].other] += (1 - static_cast<double>(cells[i].stay)) / PROJECTION_CELLS;
   }
   return result;
 }
@@ -120,38 +121,39 @@ Spread spread_of(bool sun, bool aimed) {
 
 TEST_CASE("cells are as likely as what landed in and beside them asks, and carry the rest of the flux") {
   RandomInputs random(20261127);
-  for (const auto& landed : {landed_by(random), std::vector<cl_uint>(AIM_CELLS)}) {
-    const auto cells = aim_cells(landed, share);
-    const auto expected = wanted(landed), table = made(cells);
+  for (const auto& deposited : {landed_by(random), std::vector<cl_uint>(PROJECTION_CELLS)}) {
+    const auto cells = projection_cells(deposited, share);
+    const auto expected = wanted(deposited), table = made(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       CAPTURE(i, random.seed);
       CHECK(table[i] == Approx(expected[i]).epsilon(1e-4));
-      CHECK(static_cast<double>(cells[i].share) * expected[i] * AIM_CELLS == Approx(1).epsilon(1e-5));
+      CHECK(static_cast<double>(cells[i].share) * expected[i] * PROJECTION_CELLS == Approx(1).epsilon(1e-5));
     }
   }
 }
 
 TEST_CASE("what is drawn follows the cells, is even within each, and bears the flux of all on average") {
   RandomInputs random(7);
-  const auto landed = landed_by(random);
-  std::vector<AimCell> cells = aim_cells(std::vector<cl_uint>(AIM_CELLS), share);
-  const auto second = aim_cells(landed, share);
+  const auto deposited = landed_by(random);
+  std::vector<ProjectionCell> cells = projection_cells(std::vector<cl_uint>(PROJECTION_CELLS), share);
+  const auto second = projection_cells(deposited, share);
   cells.insert(cells.end(), second.begin(), second.end());
   auto program = build_test_program(source);
   const cl_uint count = 1 << 20;
   const auto drawn = test_device().buffer(count * sizeof(float4), "drawn");
-  run_kernel(program, "draw", count, test_device().upload(cells, "cells"), drawn, AIM_CELLS, count,
+  run_kernel(program, "draw", count, test_device().upload(cells, "cells"), drawn, PROJECTION_CELLS, count,
              cl_uint{random.seed});
-  Histogram by_cell(AIM_CELLS), within(16);
-  by_cell.probabilities = wanted(landed);
+  Histogram by_cell(PROJECTION_CELLS), within(16);
+  by_cell.probabilities = wanted(deposited);
   within.probabilities.assign(16, 1.0 / 16);
   double flux = 0;
   for (const float4& d : test_device().download<float4>(drawn, count)) {
     REQUIRE((d.x >= 0 && d.x < 1 && d.y >= 0 && d.y < 1));
     const auto cell = static_cast<std::size_t>(d.w);
-    REQUIRE(cell < AIM_CELLS);
+    REQUIRE(cell < PROJECTION_CELLS);
     by_cell.add(cell);
-    const double across = static_cast<double>(d.x) * AIM_SIDE, up = static_cast<double>(d.y) * AIM_SIDE;
+    const double across = static_cast<double>(d.x) * PROJECTION_SIDE,
+                 up = static_cast<double>(d.y) * PROJECTION_SIDE;
     within.add(static_cast<std::size_t>(4 * (up - std::floor(up))) * 4 +
                static_cast<std::size_t>(4 * (across - std::floor(across))));
     flux += static_cast<double>(d.z);
@@ -169,8 +171,8 @@ TEST_CASE("up to sixteen emitters have a square of their own, more share as many
     const auto squares = test_device().download<cl_uint>(buffer, emitters);
     CAPTURE(emitters);
     const std::set<cl_uint> different(squares.begin(), squares.end());
-    CHECK(different.size() == std::min(emitters, AIM_SQUARES));
-    CHECK(*different.rbegin() == (std::min(emitters, AIM_SQUARES) - 1) * AIM_CELLS);
+    CHECK(different.size() == std::min(emitters, PROJECTION_SQUARES));
+    CHECK(*different.rbegin() == (std::min(emitters, PROJECTION_SQUARES) - 1) * PROJECTION_CELLS);
     for (const cl_uint square : different) {
       const auto sharing = std::count(squares.begin(), squares.end(), square);
       CHECK(std::abs(static_cast<double>(sharing) - emitters / static_cast<double>(different.size())) <= 1);
@@ -178,7 +180,7 @@ TEST_CASE("up to sixteen emitters have a square of their own, more share as many
   }
 }
 
-TEST_CASE("aimed photons make the same picture with less noise where light is focused") {
+TEST_CASE("photons by the projection map make the same picture with less noise where light is focused") {
   for (const bool sun : {true, false}) {
     CAPTURE(sun);
     const Spread with = spread_of(sun, true), without = spread_of(sun, false);

@@ -1,4 +1,4 @@
-// The numbers of camera paths against Sobol's sequence as it is defined, by generator matrices.
+// The sample dimensions of camera paths against Sobol's sequence as it is defined, by generator matrices.
 #include <bit>
 #include <cmath>
 
@@ -24,7 +24,7 @@ kernel void draw(global const Path *paths, global float4 *numbers, global float4
   Path p = paths[i];
   PathSampler sampler = path_sampler(p.seed, p.pass, p.pixel, p.sample, p.samples, p.sobol);
   numbers[i] = convert_float4(path_random4(&sampler, p.dimension));
-  parts[i] = convert_float4(path_random4_parts(&sampler, p.dimension));
+  parts[i] = convert_float4(path_random4_soa(&sampler, p.dimension));
   RandomStream stream = {p.seed, p.pass, p.pixel * p.samples + p.sample};
   independent[i] = convert_float4(random4(stream, p.dimension));
   hashes[i] = pcg4d((uint4)(p.pixel, 0x80000000u + half_of_passes(p.pass), p.dimension, p.seed));
@@ -88,7 +88,8 @@ float number(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-2
 }  // namespace
 
 TEST_CASE(
-    "numbers of camera paths are those of Sobol's sequence, in an order of each pixel's own and shifted") {
+    "sample dimensions of camera paths are those of Sobol's sequence, in an order of each pixel's own and "
+    "shifted") {
   RandomInputs random(71);
   std::vector<Path> paths(1 << 16);
   for (auto& p : paths) {
@@ -114,7 +115,7 @@ TEST_CASE(
   CHECK(wrong == 0);
 }
 
-TEST_CASE("numbers of camera paths are independent ones where the program is told so") {
+TEST_CASE("sample dimensions of camera paths are independent ones where the program is told so") {
   std::vector<Path> paths;
   for (uint i = 0; i < 4096; ++i)
     paths.push_back({i / 64, 1000 + i % 64, i % 4, 4, DIM_FILM + i % 3, 5, i % 2});

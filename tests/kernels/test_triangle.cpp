@@ -99,9 +99,9 @@ TEST_CASE("the triangle test agrees with double precision") {
       ++doubtful;
       continue;
     }
-    const bool met = exact.margin > 0 && exact.t > 0 && exact.t < t_max;
-    wrong += met != std::isfinite(t);
-    if (!met || !std::isfinite(t)) continue;
+    const bool did_hit = exact.margin > 0 && exact.t > 0 && exact.t < t_max;
+    wrong += did_hit != std::isfinite(t);
+    if (!did_hit || !std::isfinite(t)) continue;
     ++hits;
     wrong_distance += std::fabs(t - exact.t) > t_slack;
     wrong_weights += std::fabs(results[block * 24 + 8 + lane] - exact.weight_1) > 4 * slack ||

@@ -1,9 +1,9 @@
 // Pixels whose error cannot be told: sums of flux by cells, and which pixels miss the light of photons around
 // them.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 

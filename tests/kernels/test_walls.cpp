@@ -112,7 +112,7 @@ Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primi
 
 TEST_CASE("the walls that a cell lists part what all surfaces part") {
   const Scene scene = scene_from_text(rooms);
-  const World world = build_world(scene);
+  const FlatScene world = flatten_scene(scene);
   const auto primitives = wall_primitives(scene, world, 0);
   for (const double radius : {0.02, 0.15, 0.6}) {
     INFO("radius " << radius);
@@ -163,5 +163,5 @@ TEST_CASE("what has surface on one side alone is no wall") {
   const Scene scene = scene_from_text(R"({
     "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
     "objects": [{"type": "box", "size": [2, 2, 2], "material": {"type": "diffuse"}}]})");
-  CHECK(wall_grid(scene, build_world(scene), 0, 0.1).size() == no_walls().size());
+  CHECK(wall_grid(scene, flatten_scene(scene), 0, 0.1).size() == no_walls().size());
 }

@@ -21,7 +21,7 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   return true;
 }
 INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max,
-                           uint *faults) {
+                           uint *diagnostics) {
   Hit hit = hit_none(t_max);
   return shape_closest(shape, 0, curves, ray, &hit);
 }
@@ -52,8 +52,8 @@ kernel void occluded(global const KdNode *nodes, global const TriangleBlock *blo
                      global const float4 *rays, global uint *result, uint count) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  uint faults = 0;
-  result[i] = kdtree_occluded(nodes, blocks, shapes, 0, load_ray(rays, i), rays[2 * i].w, &faults);
+  uint diagnostics = 0;
+  result[i] = kdtree_occluded(nodes, blocks, shapes, 0, load_ray(rays, i), rays[2 * i].w, &diagnostics);
 }
 // As "closest", by packets of consecutive rays: every sixteenth item traces one.
 kernel void closest_packets(global const KdNode *nodes, global const TriangleBlock *blocks,

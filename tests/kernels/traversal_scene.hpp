@@ -1,10 +1,10 @@
 // A scene with its tree on the device, and rays of every kind that a tree can get wrong.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <sstream>
 #include <utility>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "image/luminance.hpp"
@@ -41,8 +41,8 @@ RenderResult render_with(Scene scene, Integrator integrator, int passes, unsigne
 void check_same_render(const RenderResult& a, const RenderResult& b) {
   CHECK(a.picture.rgb == b.picture.rgb);
   CHECK(a.statistics.rays == b.statistics.rays);
-  for (const auto& kind : fault_kinds)
-    CHECK(a.statistics.faults.*kind.count == b.statistics.faults.*kind.count);
+  for (const auto& kind : diagnostic_kinds)
+    CHECK(a.statistics.diagnostics.*kind.count == b.statistics.diagnostics.*kind.count);
   CHECK(mean_luminance(a.picture) > 0);
 }
 

@@ -1,7 +1,7 @@
 // Glass that absorbs, against the closed form.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 

@@ -1,9 +1,9 @@
 // Two integrators, one truth: path tracing and SPPM of every shipped scene.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
+#include "catch2.hpp"
 
 #include "format/load_scene.hpp"
 #include "render_fixture.hpp"
@@ -77,8 +77,8 @@ TEST_CASE("every shipped scene renders with both integrators to about the same b
     scene.renderer.photons = 50000;
     const auto sppm = render_with(scene, Integrator::sppm, 8);
     const auto pt = render_with(scene, Integrator::pt, 128);
-    CHECK(sppm.statistics.faults.non_finite == 0);
-    CHECK(pt.statistics.faults.non_finite == 0);
+    CHECK(sppm.statistics.diagnostics.non_finite == 0);
+    CHECK(pt.statistics.diagnostics.non_finite == 0);
     CHECK(mean_luminance(pt.picture) > 0.01);
     // A coarse check of a coarse picture; the long test has the real criterion.
     CHECK(mean_luminance(sppm.picture) == Approx(mean_luminance(pt.picture)).epsilon(0.1));

@@ -1,7 +1,7 @@
 // Photons that plates with bent shading normals scatter: SPPM agrees with path tracing.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 #include "temporary_folder.hpp"
@@ -55,7 +55,7 @@ void check_agreement(const std::string& scene_text, const char* name) {
   const auto pt = render_with(scene, Integrator::pt, 8192);
   const double seen = mean_luminance(sppm.picture), exact = mean_luminance(pt.picture);
   std::printf("%-24s SPPM %.5g, path tracing %.5g: %.4f\n", name, seen, exact, seen / exact);
-  CHECK(sppm.statistics.faults.saturated == 0);
+  CHECK(sppm.statistics.diagnostics.saturated == 0);
   CHECK(exact > 1e-3);
   CHECK(seen == Approx(exact).epsilon(0.04));
 }

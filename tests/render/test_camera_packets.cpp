@@ -1,5 +1,5 @@
-// Whole pictures with camera rays in packets and one by one: the same to the bit, with the same counts.
-#include <catch2/catch.hpp>
+// Whole pictures with camera rays in packets and one at a time: the same to the bit, with the same counts.
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
@@ -23,7 +23,7 @@ void check_same(Scene scene, int visible_points = 4) {
     const auto single = render_by(CameraRays::single, scene);
     const auto packets = render_by(CameraRays::packets, scene);
     INFO(scene.file << ", " << visible_points << " visible points, " << scene.width << " x " << scene.height);
-    CHECK(single.statistics.camera_rays == "one by one");
+    CHECK(single.statistics.camera_rays == "one at a time");
     CHECK(packets.statistics.camera_rays == "in packets of 16");
     check_same_render(single, packets);
   }
@@ -64,14 +64,14 @@ TEST_CASE(
   RenderOptions options;
   options.camera_rays = CameraRays::packets;
   options.triangle_test = TriangleTest::precomputed;
-  CHECK(render_scene(scene, test_device(), options).statistics.camera_rays == "one by one");
+  CHECK(render_scene(scene, test_device(), options).statistics.camera_rays == "one at a time");
   options.triangle_test = TriangleTest::watertight;
   if (test_device().info().fp64) {
     options.precision = Precision::float64;
-    CHECK(render_scene(scene, test_device(), options).statistics.camera_rays == "one by one");
+    CHECK(render_scene(scene, test_device(), options).statistics.camera_rays == "one at a time");
   }
   options.precision = Precision::float32;
   Scene spheres = shipped_scene("analytic_sphere.json", 16, 12);
   spheres.renderer.passes = spheres.renderer.samples = 1;
-  CHECK(render_scene(spheres, test_device(), options).statistics.camera_rays == "one by one");
+  CHECK(render_scene(spheres, test_device(), options).statistics.camera_rays == "one at a time");
 }

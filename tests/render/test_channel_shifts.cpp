@@ -1,8 +1,8 @@
 // Lamps whose colour channels differ by many powers of ten keep each channel in SPPM.
 #include "device_scene/channel_shifts.hpp"
 
-#include <catch2/catch.hpp>
 #include <cstdio>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 

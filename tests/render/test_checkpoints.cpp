@@ -1,6 +1,6 @@
 // When outputs are rewritten, by a clock of the test's own.
-#include <catch2/catch.hpp>
 #include <vector>
+#include "catch2.hpp"
 
 #include "render/checkpoints.hpp"
 

@@ -24,7 +24,7 @@ TEST_CASE("texels reach the device as the nearest halfs") {
   scene.textures.push_back({TextureSpec::Kind::image, 0, false, {1, 1}, {}, {}});
   scene.materials[0].color_texture = 0;
 
-  const DeviceScene uploaded = upload_scene(scene, test_device());
+  const DeviceScene uploaded = update_device_scene(scene, test_device());
   const auto texels = test_device().download<cl_half>(uploaded.texels, image.rgba.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
     const float value = image.rgba[i], half = cl_half_to_float(texels[i]);
@@ -42,7 +42,7 @@ TEST_CASE("texels that are not finite reach the device as such, to be counted th
   scene.images.push_back({"", 1, 1, {NAN, INFINITY, -INFINITY, 1e6f}});
   scene.textures.push_back({TextureSpec::Kind::image, 0, false, {1, 1}, {}, {}});
   scene.materials[0].color_texture = 0;
-  const auto texels = test_device().download<cl_half>(upload_scene(scene, test_device()).texels, 4);
+  const auto texels = test_device().download<cl_half>(update_device_scene(scene, test_device()).texels, 4);
   CHECK(std::isnan(cl_half_to_float(texels[0])));
   CHECK(cl_half_to_float(texels[1]) == INFINITY);
   CHECK(cl_half_to_float(texels[2]) == -INFINITY);

@@ -1,5 +1,5 @@
 // What a render does where something runs out or goes wrong: it goes on, counts and says so.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
@@ -30,16 +30,16 @@ Statistics statistics_with(std::uint64_t largest_allocation) {
 
 TEST_CASE("photons beyond the device's memory are dropped and counted, and the render goes on") {
   const Statistics roomy = statistics_with(0), tight = statistics_with(50000 * sizeof(Photon));
-  CHECK(roomy.faults.dropped == 0);
-  CHECK(fault_warnings(roomy.faults).empty());
+  CHECK(roomy.diagnostics.dropped == 0);
+  CHECK(diagnostic_warnings(roomy.diagnostics).empty());
   REQUIRE(roomy.stored_photons > 50000);
   CHECK(tight.passes == 3);
   CHECK(tight.stored_photons >= 40000);
   CHECK(tight.stored_photons <= 50000);
   // Every pass has about the photons of the last.
-  CHECK(static_cast<double>(tight.faults.dropped) ==
+  CHECK(static_cast<double>(tight.diagnostics.dropped) ==
         Approx(3.0 * static_cast<double>(roomy.stored_photons - tight.stored_photons)).epsilon(0.02));
-  CHECK(fault_warnings(tight.faults).size() == 1);
+  CHECK(diagnostic_warnings(tight.diagnostics).size() == 1);
 }
 
 TEST_CASE("less memory than a pass emits photons is an error that says what to do") {

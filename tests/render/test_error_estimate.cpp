@@ -1,7 +1,7 @@
 // From the errors of pixels to that of a picture and to what is still to be done.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include "catch2.hpp"
 
 #include "accuracy/error_estimate.hpp"
 
@@ -19,7 +19,7 @@ std::vector<PixelError> many_pixels(std::mt19937& engine) {
   for (auto& pixel : pixels) {
     pixel.luminance = std::pow(10.0f, 4 * uniform(engine) - 2);
     pixel.noise = pixel.luminance * 0.1f * uniform(engine);
-    pixel.drawn = pixel.noise * normal(engine);
+    pixel.half_difference = pixel.noise * normal(engine);
     pixel.bias = uniform(engine) < 0.3f ? pixel.luminance * 0.2f * uniform(engine) : 0.0f;
   }
   return pixels;
@@ -40,11 +40,11 @@ double share_within(const std::vector<PixelError>& pixels, double error, std::mt
 std::vector<PixelError> even_pixels(double noise, double bias) {
   constexpr int count = 2000;
   std::vector<PixelError> pixels;
-  double drawn = -4;
+  double half_difference = -4;
   for (int i = 0; i < count; ++i) {
-    while (0.5 * std::erfc(-drawn / std::sqrt(2)) < (i + 0.5) / count) drawn += 1e-4;
-    pixels.push_back(
-        {1, static_cast<float>(noise), 0, static_cast<float>(bias), static_cast<float>(noise * drawn)});
+    while (0.5 * std::erfc(-half_difference / std::sqrt(2)) < (i + 0.5) / count) half_difference += 1e-4;
+    pixels.push_back({1, static_cast<float>(noise), 0, static_cast<float>(bias),
+                      static_cast<float>(noise * half_difference)});
   }
   return pixels;
 }
@@ -151,7 +151,7 @@ TEST_CASE("a course of noise and bias is followed to where it halves") {
 TEST_CASE("rare large errors do not count for more pixels than they are in") {
   // All pixels have the same deviation, but what was drawn is in 2% of them.
   std::vector<PixelError> pixels(1000, {1, 0.1f, 0, 0, 0.01f});
-  for (std::size_t i = 0; i < pixels.size(); i += 50) pixels[i].drawn = 0.7f;
+  for (std::size_t i = 0; i < pixels.size(); i += 50) pixels[i].half_difference = 0.7f;
   CHECK(picture_error(pixels, 0.9)->error == Approx(0.01));
   CHECK(picture_error(pixels, 0.99)->error == Approx(0.7));
 }

@@ -1,7 +1,7 @@
-// Whole pictures whose camera paths end side by side (cl/photons/first_diffuse_vertices.cl), and those of
+// Whole pictures whose camera paths end in a batch (cl/photons/first_diffuse_vertices.cl), and those of
 // programs that finish each path alone, as they do for any effect that keeps the loops from being vectorised:
 // the same to the bit, with the same counts.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "effects/effects.hpp"
@@ -39,7 +39,7 @@ Scene lamps_and_glass(int width, int height) {
   return scene;
 }
 
-/// The effects that the scene calls for and one that receivers ask loops for.
+/// The effects that the scene calls for and one that first diffuse vertices ask loops for.
 std::string with_rough_lobes(const Scene& scene) {
   std::string keys;
   for (const auto& effect : find_effects(scene))
@@ -55,18 +55,18 @@ void check_same(Scene scene, PhotonRays rays = PhotonRays::automatic,
   RenderOptions options;
   options.photon_rays = rays;
   options.camera_rays = camera_rays;
-  const auto side_by_side = render_scene(scene, test_device(), options);
+  const auto batched = render_scene(scene, test_device(), options);
   options.effects = with_rough_lobes(scene);
   const auto alone = render_scene(scene, test_device(), options);
   INFO(scene.file << ", " << scene.renderer.visible_points << " visible points, " << scene.width << " x "
                   << scene.height << ", at most " << scene.max_depth << " hits");
-  check_same_render(side_by_side, alone);
+  check_same_render(batched, alone);
 }
 
 }  // namespace
 
 TEST_CASE("camera paths that end side by side give the picture of those that end alone") {
-  if (!test_device().runs_items_in_turn()) {
+  if (!test_device().has_serial_work_items()) {
     WARN("skipped: on this device every path ends alone, and programs differ by roundings");
     return;
   }
@@ -91,7 +91,7 @@ TEST_CASE("camera paths that end side by side give the picture of those that end
 }
 
 TEST_CASE("camera paths that end side by side give the picture of those that end alone: many primitives") {
-  if (!test_device().runs_items_in_turn()) {
+  if (!test_device().has_serial_work_items()) {
     WARN("skipped: on this device every path ends alone, and programs differ by roundings");
     return;
   }

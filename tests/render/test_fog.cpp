@@ -1,8 +1,8 @@
 // The medium against closed forms.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "catch2.hpp"
 
 #include "app/report.hpp"
 #include "render_fixture.hpp"

@@ -1,5 +1,5 @@
 // Pictures whose every pixel is known.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 
@@ -36,7 +36,7 @@ TEST_CASE("inside a closed sphere with Kd = Le = 1/2 path tracing gives 1 in eve
   // Light sampling alone has a standard deviation of about 0.5 a sample; BSDF sampling has none. The power
   // heuristic leaves 0.1: six standard deviations of the mean of 4096 samples.
   CHECK(largest_deviation(box_filtered(result.picture, 8)) < 1e-3);
-  CHECK(result.statistics.faults.non_finite == 0);
+  CHECK(result.statistics.diagnostics.non_finite == 0);
 }
 
 TEST_CASE(

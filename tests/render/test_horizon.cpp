@@ -1,5 +1,5 @@
 // Sun and sky on infinite planes: both integrators agree.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // Direct light against a closed form.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 
@@ -98,7 +98,7 @@ TEST_CASE("a radius that a schedule shrinks to nothing leaves a finite picture")
   scene.renderer.radius_decay = 1e-3;
   scene.renderer.photons = 1000;
   const auto result = render_with(scene, Integrator::sppm, 30);
-  CHECK(result.statistics.faults.non_finite == 0);
+  CHECK(result.statistics.diagnostics.non_finite == 0);
 }
 
 TEST_CASE("a mirrored rectangle still emits towards its local +z") {

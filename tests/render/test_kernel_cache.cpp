@@ -1,8 +1,8 @@
 // Compiled kernels that are kept: never a wrong one, whatever happens to the files. What PoCL keeps is for
 // tests/cli/test_cache_folder.cpp, since PoCL asks where its folder is once in the life of a process.
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "opencl/kernel_cache.hpp"

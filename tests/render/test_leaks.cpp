@@ -1,5 +1,5 @@
 // Two rooms on one floor: what is lit in the one is not seen in the other.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 

@@ -2,9 +2,9 @@
 // each.
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"

@@ -1,8 +1,8 @@
 // Pictures under point, spot and directional lights and under environments, against closed forms.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 
@@ -77,8 +77,8 @@ TEST_CASE("the irradiance of point, spot and directional lights is that of the c
            "intensity": [10, 10, 10]})",
        [&](Vec3 p) {
          const double cosine = place.y / length(place - p), outer = std::cos(M_PI / 9),
-                      even = std::cos(M_PI / 18);
-         const double t = std::clamp((cosine - outer) / (even - outer), 0.0, 1.0);
+                      low_discrepancy = std::cos(M_PI / 18);
+         const double t = std::clamp((cosine - outer) / (low_discrepancy - outer), 0.0, 1.0);
          return by_distance(p, 10) * t * t * (3 - 2 * t);
        }},
       {R"({"type": "directional", "direction": [3, -4, 0], "irradiance": [2, 2, 2]})",
@@ -121,7 +121,7 @@ TEST_CASE("a white ball under an even sky of 1 cannot be told from it") {
   const auto pt = render_with(scene, Integrator::pt, 128);
   // A sample has a standard deviation of about 0.5 on the ball.
   CHECK(mean_value(pt.picture) == Approx(1).margin(1e-3));
-  CHECK(pt.statistics.faults.non_finite == 0);
+  CHECK(pt.statistics.diagnostics.non_finite == 0);
   // Light sampling alone: 1.2.
   CHECK(mean_value(render_with(scene, Integrator::sppm, 16).picture) == Approx(1).margin(2.5e-3));
   Scene photons = scene;
@@ -215,8 +215,8 @@ TEST_CASE("both integrators agree under real environments") {
                                         file + R"("}]})");
     const auto sppm = render_with(scene, Integrator::sppm, 48);
     const auto pt = render_with(scene, Integrator::pt, 512);
-    CHECK(pt.statistics.faults.non_finite == 0);
-    CHECK(sppm.statistics.faults.non_finite == 0);
+    CHECK(pt.statistics.diagnostics.non_finite == 0);
+    CHECK(sppm.statistics.diagnostics.non_finite == 0);
     CHECK(mean_luminance(sppm.picture) == Approx(mean_luminance(pt.picture)).epsilon(0.01));
     CHECK(relative_mse(box_filtered(sppm.picture, 4), box_filtered(pt.picture, 4)) < 2e-3);
   }

@@ -1,4 +1,4 @@
-// The numbers of camera paths: what they are worth, and that a picture knows it.
+// The sample dimensions of camera paths: what they are worth, and that a picture knows it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 constexpr int seeds = 24;
 
 struct Errors {
-  double truth = 0, noise = 0, drawn = 0;  // root mean squares, of luminance
+  double truth = 0, noise = 0, half_difference = 0;  // root mean squares, of luminance
   double within = 1;  // of the worst seed: the share of its uncertain pixels within 1.64 pooled_noise
 };
 
@@ -42,7 +42,7 @@ Errors errors_of(const Scene& scene, const std::vector<double>& truth) {
       const double off = pixels[i].luminance - truth[i];
       errors.truth += share * off * off;
       errors.noise += share * std::pow(static_cast<double>(pixels[i].noise), 2);
-      errors.drawn += share * std::pow(static_cast<double>(pixels[i].drawn), 2);
+      errors.half_difference += share * std::pow(static_cast<double>(pixels[i].half_difference), 2);
       const auto pooled = static_cast<double>(pixels[i].pooled_noise);
       if (off == 0 && pooled == 0) continue;
       ++uncertain;
@@ -50,7 +50,7 @@ Errors errors_of(const Scene& scene, const std::vector<double>& truth) {
     }
     errors.within = std::min(errors.within, within / uncertain);
   }
-  for (double* square : {&errors.truth, &errors.noise, &errors.drawn}) *square = std::sqrt(*square);
+  for (double* square : {&errors.truth, &errors.noise, &errors.half_difference}) *square = std::sqrt(*square);
   return errors;
 }
 
@@ -71,12 +71,13 @@ void check_gain(Scene scene, const std::vector<double>& truth) {
   scene.renderer.sampler = Sampler::independent;
   const Errors independent = errors_of(scene, truth);
   scene.renderer.sampler = Sampler::sobol;
-  const Errors even = errors_of(scene, truth);
-  CAPTURE(independent.truth, independent.drawn, even.truth, even.noise, even.drawn);
-  CHECK(independent.drawn == Approx(independent.truth).epsilon(0.15));
-  CHECK(even.noise == Approx(even.truth).epsilon(0.15));
-  CHECK(even.drawn == Approx(even.truth).epsilon(0.15));
-  CHECK(independent.truth > 1.5 * even.truth);
+  const Errors low_discrepancy = errors_of(scene, truth);
+  CAPTURE(independent.truth, independent.half_difference, low_discrepancy.truth, low_discrepancy.noise,
+          low_discrepancy.half_difference);
+  CHECK(independent.half_difference == Approx(independent.truth).epsilon(0.15));
+  CHECK(low_discrepancy.noise == Approx(low_discrepancy.truth).epsilon(0.15));
+  CHECK(low_discrepancy.half_difference == Approx(low_discrepancy.truth).epsilon(0.15));
+  CHECK(independent.truth > 1.5 * low_discrepancy.truth);
 }
 
 }  // namespace

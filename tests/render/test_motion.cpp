@@ -1,8 +1,8 @@
 // Motion blur: what moves is the mean of its stills.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include "catch2.hpp"
 
 #include "app/report.hpp"
 #include "device_fixture.hpp"
@@ -51,10 +51,10 @@ bool same_bytes(const cl::Buffer& a, const cl::Buffer& b, std::size_t count) {
 
 TEST_CASE("a scene placed at a time is the still of that time, to the bit") {
   const Scene moving = moving_scene();
-  DeviceScene placed = upload_scene(moving, test_device(), 1);
+  DeviceScene placed = update_device_scene(moving, test_device(), 1);
   for (const double time : {0.625, 0.125, 0.0}) {
-    place_scene(moving, time, test_device(), placed);
-    const DeviceScene still = upload_scene(moving_scene(time), test_device(), 1);
+    place_flat_scene(moving, time, test_device(), placed);
+    const DeviceScene still = update_device_scene(moving_scene(time), test_device(), 1);
     CHECK(same_bytes<KdNode>(placed.nodes, still.nodes, 1));
     CHECK(same_bytes<Emitter>(placed.emitters, still.emitters, still.emitter_count));
     CHECK(same_bytes<Shape>(placed.shapes, still.shapes, still.shapes_count));

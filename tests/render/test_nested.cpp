@@ -1,6 +1,6 @@
 // Dielectrics that touch, overlap or hold the camera or a lamp, by values that are known.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 #include "scene/dielectrics.hpp"
@@ -53,8 +53,8 @@ void check_mean(const std::string& text, Vec3 expected, double tolerance, int sa
     const Vec3 is = mean(result.picture);
     INFO(text << "\n" << (integrator == Integrator::pt ? "pt" : "sppm"));
     for (int c = 0; c < 3; ++c) CHECK(is[c] == Approx(expected[c]).epsilon(tolerance));
-    CHECK(result.statistics.faults.media_full == 0);
-    CHECK(result.statistics.faults.media_left == 0);
+    CHECK(result.statistics.diagnostics.media_full == 0);
+    CHECK(result.statistics.diagnostics.media_left == 0);
   }
 }
 

@@ -1,6 +1,6 @@
 // Whole pictures with photons through the tree and by brute force: the same to the bit, with the same counts.
-#include <catch2/catch.hpp>
 #include <filesystem>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "format/load_scene.hpp"
@@ -14,7 +14,7 @@ namespace {
 const std::string by_brute_force = "sixteen at a time, each meets every primitive";
 
 std::string through_tree() {
-  return test_device().runs_items_in_turn() ? "side by side through the tree" : "one by one";
+  return test_device().has_serial_work_items() ? "in streams through the tree" : "one at a time";
 }
 
 Scene few_photons(const std::string& file, int width, int height) {
@@ -36,7 +36,7 @@ void check_same(const Scene& scene) {
   INFO(scene.file);
   CHECK(tree.statistics.photon_rays == through_tree());
   CHECK(brute_force.statistics.photon_rays ==
-        (test_device().runs_items_in_turn() ? by_brute_force : through_tree()));
+        (test_device().has_serial_work_items() ? by_brute_force : through_tree()));
   check_same_render(tree, brute_force);
   CHECK(tree.statistics.stored_photons == brute_force.statistics.stored_photons);
 }
@@ -49,7 +49,7 @@ TEST_CASE("the primitives of a scene are those of its tree") {
          std::filesystem::directory_iterator(CAUSTICL_SOURCE_DIR "/scenes/" + std::string(folder))) {
       if (file.path().extension() != ".json") continue;
       const Scene scene = load_scene(file.path());
-      const World world = build_world(scene);
+      const FlatScene world = flatten_scene(scene);
       INFO(file.path());
       CHECK(bounded_primitives(scene) == world.tree.triangles.size() + world.tree.shapes.size());
     }
@@ -70,13 +70,13 @@ TEST_CASE(
   const Scene box = few_photons("cornell_box.json", 16, 12);
   RenderOptions options;
   options.triangle_test = TriangleTest::precomputed;
-  CHECK(render_by(PhotonRays::brute_force, box, options).statistics.photon_rays == "one by one");
+  CHECK(render_by(PhotonRays::brute_force, box, options).statistics.photon_rays == "one at a time");
   const Scene spheres = few_photons("7_sppm_room.json", 16, 12);  // without triangles there is no such test
   CHECK(render_by(PhotonRays::tree, spheres, options).statistics.photon_rays == through_tree());
   options.triangle_test = TriangleTest::watertight;
   if (test_device().info().fp64) {
     options.precision = Precision::float64;
-    CHECK(render_by(PhotonRays::brute_force, box, options).statistics.photon_rays == "one by one");
+    CHECK(render_by(PhotonRays::brute_force, box, options).statistics.photon_rays == "one at a time");
     options.precision = Precision::float32;
   }
   for (const char* file : {"2_glass_knot.json", "3_bezier_solids.json", "effects/next_room.json"}) {
@@ -84,7 +84,7 @@ TEST_CASE(
     INFO(file);
     CHECK(statistics.photon_rays == through_tree());
   }
-  const bool on_cpu = test_device().info().type == "cpu" && test_device().runs_items_in_turn();
+  const bool on_cpu = test_device().info().type == "cpu" && test_device().has_serial_work_items();
   CHECK(render_by(PhotonRays::automatic, box).statistics.photon_rays ==
         (on_cpu ? by_brute_force : through_tree()));
 }

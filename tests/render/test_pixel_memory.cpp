@@ -1,5 +1,5 @@
 // Device memory that grows with the picture, and where visible points lie.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"

@@ -1,6 +1,6 @@
 // Dispersion as pictures show it.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // The same scene by two independent renderers (not shipped; skipped where the folder is missing).
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "format/load_scene.hpp"
 #include "reference_comparison.hpp"

@@ -1,5 +1,5 @@
 // The same bits for the same seed, whatever the order of execution.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"

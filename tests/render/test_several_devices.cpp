@@ -1,6 +1,6 @@
 // Several devices at one picture: the same device, opened several times.
-#include <catch2/catch.hpp>
 #include <memory>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
@@ -74,7 +74,7 @@ TEST_CASE("several devices make the picture of one to the bit: a medium, and thi
   check_same(small("effects/moving_balls.json"), 2);
 }
 
-TEST_CASE("several devices make the picture of one to the bit: aimed photons") {
+TEST_CASE("several devices make the picture of one to the bit: photons by the projection map") {
   check_same(small("effects/sun.json"), 2);
 }
 

@@ -1,8 +1,8 @@
 // Stress scenes: each hard case beside the same picture made the easy way.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <set>
+#include "catch2.hpp"
 
 #include "render_fixture.hpp"
 
@@ -35,8 +35,8 @@ Pair render_pair(const Budget& budget, int passes) {
     scene.renderer.photons = budget.photons;
     scene.renderer.visible_points = 1;
     const RenderResult result = render_with(scene, budget.integrator, passes, seed);
-    CHECK(result.statistics.faults.non_finite == 0);
-    CHECK(result.statistics.faults.traversal_bound == 0);
+    CHECK(result.statistics.diagnostics.non_finite == 0);
+    CHECK(result.statistics.diagnostics.traversal_bound == 0);
     return result.picture;
   };
   return {render(budget.name, 1), render(std::string(budget.name) + "_easy", 2)};

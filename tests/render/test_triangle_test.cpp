@@ -1,5 +1,5 @@
 // Whole pictures by both ways in which rays can meet triangles.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
@@ -63,5 +63,5 @@ TEST_CASE("the triangle test changes nothing where there is no triangle, whateve
   CHECK(*std::max_element(expected.begin(), expected.end()) > 0);
   CHECK(rendered(TriangleTest::precomputed, "auto") == expected);
   // Only CPUs round alike in programs for more effects.
-  if (test_device().runs_items_in_turn()) CHECK(rendered(TriangleTest::precomputed, "all") == expected);
+  if (test_device().has_serial_work_items()) CHECK(rendered(TriangleTest::precomputed, "all") == expected);
 }

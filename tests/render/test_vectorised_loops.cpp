@@ -1,6 +1,6 @@
 // Loops that are to become vector code do: PoCL's compiler tells of each that is marked and stays scalar, and
 // a scene then takes up to twice as long without any other sign.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "cli/process.hpp"
 #include "device_fixture.hpp"
@@ -19,7 +19,7 @@ std::size_t times(const std::string& what, const std::string& text) {
 }  // namespace
 
 TEST_CASE("the loops over photons and camera paths are vectorised") {
-  if (!test_device().runs_items_in_turn()) return;
+  if (!test_device().has_serial_work_items()) return;
   const TemporaryFolder folder;
   const std::string scenes = std::string(CAUSTICL_SOURCE_DIR) + "/scenes/";
   for (const char* scene : {"cornell_box", "glass_caustic"}) {

@@ -1,9 +1,9 @@
 // Small scenes for the tests of the loader.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
+#include "catch2.hpp"
 
 #include "format/load_scene.hpp"
 #include "scene/scene.hpp"

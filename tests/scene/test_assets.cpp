@@ -1,11 +1,11 @@
 // The shipped scenes' meshes and pictures: what glass needs, and that they stay small.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include "catch2.hpp"
 
 #include "mesh/mesh.hpp"
 

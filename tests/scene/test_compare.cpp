@@ -1,9 +1,9 @@
 // The numbers of `causticl compare`.
 #include "accuracy/compare.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include "catch2.hpp"
 
 #include "image/flip.hpp"
 #include "temporary_folder.hpp"
@@ -95,15 +95,15 @@ TEST_CASE("a picture that knows its error is held to it") {
   std::normal_distribution<float> normal;
   const auto noisy = [&](float sigma) {
     Picture picture = picture_of(100, 80, waves);
-    Channel noise{"error.noise", {}}, bias{"error.bias", {}}, drawn{"error.drawn", {}};
+    Channel noise{"error.noise", {}}, bias{"error.bias", {}}, half_difference{"error.drawn", {}};
     for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) {
       const float difference = sigma * normal(engine);
       for (int c = 0; c < 3; ++c) picture.rgb[3 * i + c] += difference;
       noise.values.push_back(sigma);
       bias.values.push_back(0);
-      drawn.values.push_back(sigma * normal(engine));
+      half_difference.values.push_back(sigma * normal(engine));
     }
-    picture.channels = {noise, {"error.pooled_noise", noise.values}, bias, drawn};
+    picture.channels = {noise, {"error.pooled_noise", noise.values}, bias, half_difference};
     return picture;
   };
   const Picture truth = picture_of(100, 80, waves), picture = noisy(0.05f);
@@ -150,14 +150,14 @@ TEST_CASE("the noise that a reference states is taken off, and that is said") {
   CHECK(untold.mse == comparison.mse);
   CHECK_THAT(comparison_table(untold), !Catch::Contains("own noise"));
 
-  Channel noise{"error.noise", {}}, bias{"error.bias", {}}, drawn{"error.drawn", {}};
+  Channel noise{"error.noise", {}}, bias{"error.bias", {}}, half_difference{"error.drawn", {}};
   for (std::size_t i = 0; i < truth.rgb.size(); i += 3) {
     const double grey = 0.2126 * truth.rgb[i] + 0.7152 * truth.rgb[i + 1] + 0.0722 * truth.rgb[i + 2];
     noise.values.push_back(static_cast<float>(0.06 * grey));
-    drawn.values.push_back(static_cast<float>(0.06 * grey * normal(engine)));
+    half_difference.values.push_back(static_cast<float>(0.06 * grey * normal(engine)));
     bias.values.push_back(0);
   }
-  reference.channels = {noise, {"error.pooled_noise", noise.values}, bias, drawn};
+  reference.channels = {noise, {"error.pooled_noise", noise.values}, bias, half_difference};
   const TemporaryFolder folder;
   write_picture(folder.path("r.exr"), reference, {});
   const Picture read = read_rendered(folder.path("r.exr"));

@@ -73,7 +73,7 @@ std::string ply_ball(Vec3 at) {
 
 /// The largest distance between corners of the triangles of two scenes.
 double distance(const Scene& a, const Scene& b) {
-  const World first = build_world(a), second = build_world(b);
+  const FlatScene first = flatten_scene(a), second = flatten_scene(b);
   REQUIRE(first.tree.triangles.size() == second.tree.triangles.size());
   double largest = 0;
   for (std::size_t t = 0; t < first.tree.triangles.size(); ++t)
@@ -137,7 +137,7 @@ TEST_CASE("shapes that are shifted far away and back are where they were") {
     const Scene there_and_back = scene(half + ", " + shift(beyond) + ", " + shift(-beyond)),
                 here = scene(half);
     CHECK(distance(there_and_back, here) < 1e-7);
-    const World a = build_world(there_and_back), b = build_world(here);
+    const FlatScene a = flatten_scene(there_and_back), b = flatten_scene(here);
     REQUIRE(a.shapes.size() == b.shapes.size());
     for (std::size_t i = 0; i < a.shapes.size(); ++i)
       for (int row = 0; row < 3; ++row)
@@ -151,12 +151,12 @@ TEST_CASE("a revolved curve far along its own axis, and shifted back, is the one
   const auto world = [&](double height) {
     const std::string points =
         "[[0, " + digits(height) + "], [1, " + digits(height + 0.5) + "], [0, " + digits(height + 1) + "]]";
-    return build_world(
+    return flatten_scene(
         folder.objects(R"({"type": "bezier_rotate", "point": )" + points +
                        R"(, "material": {"type": "diffuse", "emission": [1, 1, 1]}, "transform": [)" +
                        shift({0, -height, 0}) + "]}"));
   };
-  const World here = world(0), away = world(4517583.3);
+  const FlatScene here = world(0), away = world(4517583.3);
   // Where the point at the same place on both curves is: the middle of the data's bounds by the map to world.
   const auto& a = here.tree.shapes[0].bounds;
   const auto& b = away.tree.shapes[0].bounds;
@@ -184,7 +184,7 @@ TEST_CASE("(u, v) far from 0 keep the place within the repeat, for every scale o
                            texture + ", \"scale\": " + scale + "}}}");
         const auto factors = scene.textures[0].scale;
         std::vector<double> places;  // within two repeats
-        const World world = build_world(scene);
+        const FlatScene world = flatten_scene(scene);
         for (const auto& uv : world.attributes[0].uv)
           for (const double value : {uv.x * factors[0], uv.y * factors[1]})
             places.push_back(value - 2 * std::floor(value / 2));

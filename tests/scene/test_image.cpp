@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include "catch2.hpp"
 
 #include "image/image.hpp"
 #include "image/image_formats.hpp"

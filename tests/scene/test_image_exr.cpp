@@ -6,7 +6,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "image_files.hpp"
 

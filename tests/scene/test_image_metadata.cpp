@@ -1,7 +1,7 @@
 // What PNG, JPEG, TGA and PFM files say beside their pixels.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include "catch2.hpp"
 
 #include "image/image_metadata.hpp"
 #include "image_files.hpp"

@@ -1,5 +1,5 @@
 // Radiance pictures (.hdr).
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "image_files.hpp"
 

@@ -1,7 +1,7 @@
 // What all kinds of meshes share: polygons, normals, size, and real files.
-#include <catch2/catch.hpp>
 #include <ctime>
 #include <iostream>
+#include "catch2.hpp"
 
 #include "mesh/mesh_polygon.hpp"
 #include "mesh_files.hpp"

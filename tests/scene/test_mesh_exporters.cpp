@@ -1,5 +1,5 @@
 // OBJ and PLY as exporters and other tools write them.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "mesh_files.hpp"
 

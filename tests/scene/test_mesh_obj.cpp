@@ -1,5 +1,5 @@
 // Wavefront OBJ.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "mesh_files.hpp"
 

@@ -1,5 +1,5 @@
 // PLY, ASCII and binary.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "mesh_files.hpp"
 

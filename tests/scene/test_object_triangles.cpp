@@ -1,4 +1,4 @@
-// Which triangles are needles: the host's verdict against the kernel that asks.
+// Which triangles are slivers: the host's verdict against the kernel that asks.
 #include "device_fixture.hpp"
 #include "scene/object_triangles.hpp"
 
@@ -38,9 +38,9 @@ struct OneMesh {
     scene.objects[0].shape = Object::Shape::mesh;
     scene.objects[0].mesh = 0;
   }
-  bool has_needles(const std::vector<std::array<double, 3>>& corners) {
+  bool has_slivers(const std::vector<std::array<double, 3>>& corners) {
     scene.meshes[0].positions = corners;
-    return causticl::has_needles(scene, scene.objects[0]);
+    return causticl::has_slivers(scene, scene.objects[0]);
   }
 };
 
@@ -52,7 +52,7 @@ TEST_CASE(
   constexpr int wanted = 1 << 17;
   OneMesh mesh;
   std::vector<float> still, moved;
-  int needles = 0;
+  int slivers = 0;
   while (still.size() < 9 * wanted) {
     const double size = std::pow(10, random.uniform(-3, 3)),
                  away = size * std::pow(10, random.uniform(-1, 4));
@@ -69,8 +69,8 @@ TEST_CASE(
     for (const Vec3& p : all)
       positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     mesh.scene.objects[0].motion = motion;
-    if (mesh.has_needles(positions)) {
-      ++needles;
+    if (mesh.has_slivers(positions)) {
+      ++slivers;
       continue;
     }
     const double time = random.uniform();
@@ -80,9 +80,9 @@ TEST_CASE(
         moved.push_back(static_cast<float>(p[axis] + time * motion[axis]));
       }
   }
-  CHECK(needles > wanted / 10);
+  CHECK(slivers > wanted / 10);
   for (const auto& corners : {still, moved}) {
-    const auto with = normals(EFFECT_ALL, corners), without = normals(EFFECT_ALL & ~EFFECT_NEEDLES, corners);
+    const auto with = normals(EFFECT_ALL, corners), without = normals(EFFECT_ALL & ~EFFECT_SLIVERS, corners);
     // Bit by bit where sums of products are rounded as they are written; a GPU's compiler fuses some, one way
     // or another by what stands around them.
     const double allowed = test_device().info().type == "cpu" ? 0 : 1e-5;
@@ -97,18 +97,18 @@ TEST_CASE(
 
 TEST_CASE("thin triangles are needles, and so are those too small to tell") {
   OneMesh mesh;
-  CHECK(!mesh.has_needles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
-  CHECK(mesh.has_needles({{0, 0, 0}, {1, 0, 0}, {1, 0.05f, 0}}));
-  CHECK(!mesh.has_needles({{1, 0.05f, 0}, {0, 0, 0}, {1, 0, 0}}));  // the angle at its first corner decides
-  CHECK(mesh.has_needles({{1, 1, 1}, {1, 1, 1}, {0, 1, 0}}));
-  CHECK(mesh.has_needles({{1e6f, 1e6f, 0}, {1e6f + 0.5f, 1e6f, 0}, {1e6f, 1e6f + 0.5f, 0}}));
-  // A box of two by two by `height` has needles where its sides are thin; a sphere has none.
+  CHECK(!mesh.has_slivers({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  CHECK(mesh.has_slivers({{0, 0, 0}, {1, 0, 0}, {1, 0.05f, 0}}));
+  CHECK(!mesh.has_slivers({{1, 0.05f, 0}, {0, 0, 0}, {1, 0, 0}}));  // the angle at its first corner decides
+  CHECK(mesh.has_slivers({{1, 1, 1}, {1, 1, 1}, {0, 1, 0}}));
+  CHECK(mesh.has_slivers({{1e6f, 1e6f, 0}, {1e6f + 0.5f, 1e6f, 0}, {1e6f, 1e6f + 0.5f, 0}}));
+  // A box of two by two by `height` has slivers where its sides are thin; a sphere has none.
   Object& object = mesh.scene.objects[0];
   object.shape = Object::Shape::box;
   for (const double height : {0.1, 1.0}) {
     object.size = {2, height, 2};
-    CHECK(has_needles(mesh.scene, object) == (height < 0.2));
+    CHECK(has_slivers(mesh.scene, object) == (height < 0.2));
   }
   object.shape = Object::Shape::sphere;
-  CHECK(!has_needles(mesh.scene, object));
+  CHECK(!has_slivers(mesh.scene, object));
 }

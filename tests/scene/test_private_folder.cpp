@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "base/private_folder.hpp"
 #include "base/run_folder.hpp"

@@ -1,5 +1,5 @@
 // The tree that keeps lines and pointers.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "format/json_reader.hpp"
 #include "temporary_folder.hpp"

@@ -64,12 +64,12 @@ TEST_CASE("surfaces that should emit light, but without an area give none, are n
     CHECK(notices_of(scene) ==
           "1: /: " + dark + "; /objects/1 should emit light, but without an area gives none\n");
     CHECK(!has_light(scene));
-    CHECK(build_world(scene).emitters.empty());
+    CHECK(flatten_scene(scene).emitters.empty());
     const Scene lit = folder.objects(emitter(file) + ", " + emitter(file) + ", " + lamp);
     CHECK(notices_of(lit) ==
           "1: /: /objects/0 and others should emit light, but without an area gives none\n");
     CHECK(has_light(lit));
-    CHECK(build_world(lit).emitters.size() == 1);
+    CHECK(flatten_scene(lit).emitters.size() == 1);
   }
   CHECK(notices_of(folder.objects(emitter("half.obj"))) == "");
   CHECK(notices_of(folder.objects(emitter("half.obj", "[1e-60, 0, 0]"))) == "1: /: " + dark + "\n");
@@ -99,13 +99,13 @@ TEST_CASE("a disk among the lights is an object that emits on the side of its no
 
 TEST_CASE("environments of one radiance and of an image") {
   const SceneFolder folder;
-  const Scene even = with_lights(folder, R"({"type": "environment", "radiance": [1, 2, 3]})");
-  REQUIRE(even.environment);
-  CHECK(even.environment->pointer == "/lights/0");
-  CHECK(even.environment->rotation == 0);
-  for (std::size_t i = 0; i < even.environment->map.rgba.size(); i += 4) {
-    REQUIRE(even.environment->map.rgba[i] == 1);
-    REQUIRE(even.environment->map.rgba[i + 2] == 3);
+  const Scene low_discrepancy = with_lights(folder, R"({"type": "environment", "radiance": [1, 2, 3]})");
+  REQUIRE(low_discrepancy.environment);
+  CHECK(low_discrepancy.environment->pointer == "/lights/0");
+  CHECK(low_discrepancy.environment->rotation == 0);
+  for (std::size_t i = 0; i < low_discrepancy.environment->map.rgba.size(); i += 4) {
+    REQUIRE(low_discrepancy.environment->map.rgba[i] == 1);
+    REQUIRE(low_discrepancy.environment->map.rgba[i + 2] == 3);
   }
   const Scene image = with_lights(folder, R"({"type": "environment", "path": "5x4.png", "rotation": 90})");
   REQUIRE(image.environment);

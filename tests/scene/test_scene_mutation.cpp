@@ -1,7 +1,7 @@
 // Damaged scene files either load or are refused with one line: never a crash, another exception or a hang.
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <random>
+#include "catch2.hpp"
 
 #include "format/load_scene.hpp"
 #include "scene/scene.hpp"

@@ -1,8 +1,8 @@
 // The wavelengths that colour channels stand for.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+#include "catch2.hpp"
 
 #include "scene/spectrum.hpp"
 

@@ -1,5 +1,5 @@
 // Whether the camera is said to see nothing exactly where it does.
-#include <catch2/catch.hpp>
+#include "catch2.hpp"
 
 #include "render/render_fixture.hpp"
 #include "world/view_check.hpp"

@@ -11,7 +11,7 @@ namespace causticl {
 inline StudyRun made_run(const StudySetting& setting, std::uint32_t seed, double mse, double slope,
                          double pass_seconds, std::uint64_t last, bool is_long = false) {
   StudyRun run;
-  run.knob = setting.knob;
+  run.parameter = setting.parameter;
   run.value = setting.value;
   run.seed = seed;
   run.is_long = is_long;

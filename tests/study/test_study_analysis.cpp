@@ -1,8 +1,8 @@
 // From measurements to answers, on curves that are known.
 #include "study/study_analysis.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
+#include "catch2.hpp"
 
 #include "study_fixture.hpp"
 

@@ -1,7 +1,7 @@
 // What tells one study from another: every byte of what it was measured of, and every option that decides it.
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <set>
+#include "catch2.hpp"
 
 #include "base/folder_lock.hpp"
 #include "format/load_scene.hpp"
@@ -12,12 +12,12 @@ using namespace causticl;
 namespace fs = std::filesystem;
 
 TEST_CASE("fingerprints tell bytes, their order and where a part ends") {
-  CHECK(fingerprint("a") != fingerprint("b"));
-  CHECK(fingerprint("b", "a") != fingerprint("a", "b"));
-  CHECK(fingerprint("bc", "a") != fingerprint("c", "ab"));
-  CHECK(fingerprint(std::string("a\0b", 3)) != fingerprint(std::string("a\0c", 3)));
-  CHECK(fingerprint("a") == fingerprint("a"));
-  CHECK(fingerprint("").size() == 32);
+  CHECK(content_hash("a") != content_hash("b"));
+  CHECK(content_hash("b", "a") != content_hash("a", "b"));
+  CHECK(content_hash("bc", "a") != content_hash("c", "ab"));
+  CHECK(content_hash(std::string("a\0b", 3)) != content_hash(std::string("a\0c", 3)));
+  CHECK(content_hash("a") == content_hash("a"));
+  CHECK(content_hash("").size() == 32);
 }
 
 TEST_CASE("every byte of a scene and of the files that it names counts") {
@@ -31,10 +31,10 @@ TEST_CASE("every byte of a scene and of the files that it names counts") {
     "lights": [{"type": "environment", "path": "e.pfm"}],
     "objects": [{"type": "mesh", "path": "m.obj", "material": {"type": "diffuse", "color": {"type": "image", "path": "5x4.png"}}}]})";
   const std::string scene = folder.write("scene.json", text);
-  const auto fingerprint_now = [&] { return scene_fingerprint(load_scene(scene)); };
-  const std::string before = fingerprint_now();
+  const auto hash_now = [&] { return scene_hash_of(load_scene(scene)); };
+  const std::string before = hash_now();
   CHECK(load_scene(scene).assets.size() == 3);
-  CHECK(fingerprint_now() == before);
+  CHECK(hash_now() == before);
 
   // A comment of the mesh, a place in its texture, a byte after the end of the image, a texel of the sky, a
   // blank.
@@ -44,29 +44,29 @@ TEST_CASE("every byte of a scene and of the files that it names counts") {
     std::string changed = mesh;
     changed.replace(changed.find(from), std::string(from).size(), to);
     folder.write("m.obj", changed);
-    all.insert(fingerprint_now());
+    all.insert(hash_now());
   }
   folder.write("m.obj", mesh);
   std::ofstream(folder.path(png), std::ios::binary | std::ios::app) << "x";
-  all.insert(fingerprint_now());
+  all.insert(hash_now());
   folder.write("e.pfm", "PF\n1 1\n-1.0\n" + std::string(11, '\0') + "\x3f");
-  all.insert(fingerprint_now());
+  all.insert(hash_now());
   folder.write("scene.json", text + " ");
-  all.insert(fingerprint_now());
+  all.insert(hash_now());
   CHECK(all.size() == 7);
 }
 
 TEST_CASE("every option that decides what is rendered counts") {
   StudyRequest options;
-  options.study.knobs = {"alpha", "radius"};
+  options.study.parameters = {"alpha", "radius"};
   std::set<std::vector<std::string>> all{deciding_options(options)};
   const auto with = [&](auto change) {
     StudyRequest other = options;
     change(other);
     all.insert(deciding_options(other));
   };
-  with([](StudyRequest& o) { o.study.knobs = {"alpha"}; });
-  with([](StudyRequest& o) { o.study.knobs = {}; });
+  with([](StudyRequest& o) { o.study.parameters = {"alpha"}; });
+  with([](StudyRequest& o) { o.study.parameters = {}; });
   with([](StudyRequest& o) { o.study.seeds = 5; });
   with([](StudyRequest& o) { o.scene_options.integrator = Integrator::pt; });
   with([](StudyRequest& o) { o.scene_options.integrator = Integrator::sppm; });
@@ -77,7 +77,7 @@ TEST_CASE("every option that decides what is rendered counts") {
   with([&](StudyRequest& o) { o.kernel_dir = kernels.path(""); });
   CHECK(all.size() == 8);
   // Their order, and what is printed or for how long, decides nothing.
-  with([](StudyRequest& o) { o.study.knobs = {"radius", "alpha"}; });
+  with([](StudyRequest& o) { o.study.parameters = {"radius", "alpha"}; });
   with([](StudyRequest& o) { o.study.budget = 1; });
   with([](StudyRequest& o) { o.study.restart = true; });
   CHECK(all.size() == 8);

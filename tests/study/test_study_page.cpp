@@ -1,9 +1,9 @@
 // The page of a study, without a browser: scripts/study_page.sh has one.
 #include "study/study_page.hpp"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
 #include "image/image.hpp"

@@ -1,10 +1,10 @@
-// The table of knobs, and how a budget is shared out.
+// The table of parameters, and how a budget is shared out.
 #include "format/load_scene.hpp"
 #include "study/study_plan.hpp"
 
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <set>
+#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
 #include "app/options.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 const std::string scenes = CAUSTICL_SOURCE_DIR "/scenes/";
 
-/// The settings of a study of all knobs of a scene, with SPPM's first radius 0.5.
+/// The settings of a study of all parameters of a scene, with SPPM's first radius 0.5.
 struct Planned {
   explicit Planned(const std::string& file, const std::vector<std::string>& own_words = {},
                    const std::string& sppm_fault = "", bool fp64 = true) {
@@ -25,7 +25,7 @@ struct Planned {
     if (own_words == std::vector<std::string>{"--integrator", "pt"}) options.integrator = Integrator::pt;
     scene = load_scene(scenes + file, options);
     const JsonDocument document = json_read(scenes + file);
-    plan_settings(study, wanted_knobs({}), {scene, document, 0.5, fp64}, own_words, sppm_fault);
+    plan_settings(study, wanted_parameters({}), {scene, document, 0.5, fp64}, own_words, sppm_fault);
   }
   Scene scene;
   Study study;
@@ -35,18 +35,18 @@ struct Planned {
 
 TEST_CASE("every row of the table of knobs says what it is") {
   std::set<std::string> names;
-  for (const Knob& knob : study_knobs()) {
-    CAPTURE(knob.name);
-    CHECK(names.insert(knob.name).second);
-    CHECK(std::string(knob.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") ==
+  for (const StudyParameter& parameter : study_parameters()) {
+    CAPTURE(parameter.name);
+    CHECK(names.insert(parameter.name).second);
+    CHECK(std::string(parameter.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") ==
           std::string::npos);
-    CHECK(std::string(knob.title).size() > 4);
-    CHECK(std::string(knob.meaning).back() == '.');
+    CHECK(std::string(parameter.title).size() > 4);
+    CHECK(std::string(parameter.meaning).back() == '.');
   }
-  CHECK(wanted_knobs({"alpha", "integrator"}).size() == 2);
-  CHECK(wanted_knobs({}).size() == study_knobs().size());
-  CHECK_THAT(user_error_of([] { wanted_knobs({"alpah"}); }),
-             Contains("--knobs: there is no knob \"alpah\"; expected some of integrator, photons"));
+  CHECK(wanted_parameters({"alpha", "integrator"}).size() == 2);
+  CHECK(wanted_parameters({}).size() == study_parameters().size());
+  CHECK_THAT(user_error_of([] { wanted_parameters({"alpah"}); }),
+             Contains("--parameters: there is no parameter \"alpah\"; expected some of integrator, photons"));
 }
 
 TEST_CASE("every setting of every knob is a command line that renders the scene so") {
@@ -63,27 +63,28 @@ TEST_CASE("every setting of every knob is a command line that renders the scene 
         Options options = parse_options(static_cast<int>(words.size()), words.data());
         const Scene changed = load_scene(scenes + file, options.scene_options);
         CHECK((changed.renderer.integrator == Integrator::pt) == setting.path_traced);
-        if (setting.knob == "alpha") CHECK(changed.renderer.alpha == std::stod(setting.value));
-        if (setting.knob == "photons") {
+        if (setting.parameter == "alpha") CHECK(changed.renderer.alpha == std::stod(setting.value));
+        if (setting.parameter == "photons") {
           CHECK(*options.photons == std::stoll(setting.value));
           CHECK(changed.renderer.radius == 0.5);
         }
-        if (setting.knob == "radius") CHECK(changed.renderer.radius == std::stod(setting.value));
-        if (setting.knob == "max_depth") CHECK(changed.max_depth == std::stoi(setting.value));
-        if (setting.knob == "visible_points")
+        if (setting.parameter == "radius") CHECK(changed.renderer.radius == std::stod(setting.value));
+        if (setting.parameter == "max_depth") CHECK(changed.max_depth == std::stoi(setting.value));
+        if (setting.parameter == "visible_points")
           CHECK(changed.renderer.visible_points == std::stoi(setting.value));
-        if (setting.knob == "precision") CHECK(options.precision == Precision::float64);
-        if (setting.knob == "triangle_test") CHECK(options.triangle_test == TriangleTest::precomputed);
-        if (setting.knob == "schedule") CHECK(changed.renderer.schedule != planned.scene.renderer.schedule);
-        if (setting.knob == "direct_light")
+        if (setting.parameter == "precision") CHECK(options.precision == Precision::float64);
+        if (setting.parameter == "triangle_test") CHECK(options.triangle_test == TriangleTest::precomputed);
+        if (setting.parameter == "schedule")
+          CHECK(changed.renderer.schedule != planned.scene.renderer.schedule);
+        if (setting.parameter == "direct_light")
           CHECK(changed.renderer.direct_light != planned.scene.renderer.direct_light);
-        if (setting.knob == "texture_filter")
+        if (setting.parameter == "texture_filter")
           CHECK(std::count_if(changed.textures.begin(), changed.textures.end(),
                               [](const TextureSpec& texture) { return texture.bilinear; }) !=
                 std::count_if(planned.scene.textures.begin(), planned.scene.textures.end(),
                               [](const TextureSpec& texture) { return texture.bilinear; }));
       }
-      for (const auto& [knob, base] : planned.study.bases) CHECK(ids.contains(base));
+      for (const auto& [parameter, base] : planned.study.bases) CHECK(ids.contains(base));
     }
 }
 

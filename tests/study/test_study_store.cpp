@@ -1,8 +1,8 @@
 // What a study measured, to files and back.
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
 #include "study_fixture.hpp"
@@ -62,7 +62,7 @@ TEST_CASE("CSV has every measurement, exactly") {
     for (const auto& sample : run.samples) {
       const auto& cells = rows[++row];
       REQUIRE(cells.size() == rows[0].size());
-      CHECK(cells[0] == run.knob);
+      CHECK(cells[0] == run.parameter);
       CHECK(cells[1] == run.value);
       CHECK(std::stoull(cells[2]) == run.seed);
       CHECK(std::stoull(cells[4]) == sample.passes);

@@ -1,9 +1,9 @@
 // One concept a file: at most 300 lines.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include "catch2.hpp"
 
 namespace {
 

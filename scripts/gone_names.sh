@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Usage: scripts/gone_names.sh
+# Finds names that the tree has given up for the field's own (docs/glossary.md) in host/, cl/, tests/, the documents and what
+# --help prints. Prints each place and fails where there is any. CHANGELOG.md and docs/performance-log.md may name them.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+
+# Whole identifiers and phrases, several a line.
+names=(
+  AIM_CELLS AIM_SIDE AIM_SQUARES AimCell BEYOND_RECEIVER BIAS_OF_BLUR Blur COVERAGE_COUNT_MASK
+  COVERAGE_FIRST_PROBES COVERAGE_LEAST COVERAGE_MOST_HITS COVERAGE_OF_HALF COVERAGE_PROBED COVERAGE_PROBES
+  COVERAGE_RARELY COVERAGE_SHARE_OF_HALF COVERAGE_SHIFT DIM_COVERAGE DIM_LOOK EFFECT_NEEDLES EVENT_LANDED
+  ErrorWatch FAULT_MEDIA_FULL FAULT_MEDIA_LEFT FAULT_TRAVERSAL_BOUND FAULT_UNRESOLVED FIRST_HITS_FOUND
+  FaultKind Faults FilmLayers FirstHit FirstHits HALVES_REACH HISTORY_NO_RECEIVER HISTORY_SCATTERED
+  HISTORY_SPECULAR HISTORY_STRAIGHT KDTREE_WAVES Knob KnobContext KnobValue LAYER_CAUSTIC LAYER_COUNT
+  LAYER_DIRECT LAYER_INDIRECT LOOKING_VERTICES LOOPED_EMISSION LOOPED_EVENTS LOOPED_RECEIVERS NEEDLE_SINE2
+  NOISE_OF_BLUR OUTPUT_LAYERS PHOTONS_COPIES PHOTONS_SCOUTS PHOTONS_SEEDS PHOTONS_TO_AIM_BY PHOTON_LAYER_SHIFT
+  PhotonAim PhotonGuide RECEIVERS_SIDE_BY_SIDE Receivers SeedStatistics UnshadowedLight VisibleLayers
+  WAVE_BRUTE_FORCE WAVE_CAPACITY WAVE_REFILL WAVE_SIDE_BY_SIDE WAVE_STEP Wave WaveHits WaveWalk World
+  WorldBuilder added_blur aim_cell aim_cells aim_landed aim_square along3 arriving_cosine block_meets
+  blur_around build_world check_waves closest_in_wave count_faults coverage_add coverage_closest
+  coverage_goes_on coverage_mean coverage_of coverage_probe coverage_wanted difference3 distant_origin
+  even_and_apart fault_kinds fault_warnings file_fingerprint fingerprint_now fingerprint_of first_hit
+  first_hit_buffer_ first_hit_bytes_ first_hits first_hits_ first_hits_of geometry_surface_parts has_needles
+  history_after history_layer is_knob is_marked kdtree_wave kernels_fingerprint landed_ landed_here
+  layers_gathered least_scouts look_along_lobe look_aside mark_bytes mark_cells mark_facing marked_across
+  marked_share marks_ meet_all meet_one meet_others meets_box most_copies most_scouts needle_checks
+  needle_normal needles_reason of_seeds packet_meets packet_meets_box packet_walk path_random4_parts
+  photon_copies photon_event photon_layer place_scene product3 receiver_asks receiver_count receiver_light
+  receiver_mark receiver_point receiver_ray receiver_reflects receiver_sampler receivers receivers_find_light
+  receivers_find_points receivers_finish receivers_probe receivers_put receivers_repeat receivers_shadow
+  receivers_store runs_items_in_turn scene_fingerprint scout scout_share scouts_ seeds_found_ side_by_side
+  single_faults study_knobs sum3 surface_put_together surface_take_apart table_of_knobs take_aim
+  unshadowed_light upload_scene useful_scouts walk_axis walk_back walk_begin walk_block walk_child walk_node
+  walk_shapes walk_slab walk_to walk_triangle walk_triangles wanted_knobs wave_closest wave_compact
+  wave_contacts wave_emit wave_faults wave_get wave_guide wave_learn wave_move wave_padded wave_paths wave_put
+  wave_put_record wave_ray wave_scatter wave_store wave_stream wave_trace
+  'guided photons' 'aimed photons' 'even numbers' 'marked cells' 'numbers of camera paths'
+)
+
+documents=("$root/README.md" "$root/CONTRIBUTING.md")
+for page in "$root"/docs/*.md; do
+  [ "$(basename "$page")" = performance-log.md ] || documents+=("$page")
+done
+pattern=$(printf '%s\n' "${names[@]}")
+found=0
+grep -rnwFI -f <(printf '%s\n' "$pattern") --include='*.cpp' --include='*.hpp' --include='*.cl' --include='*.h' --include='*.patch' \
+  "$root/host" "$root/cl" "$root/tests" && found=1
+grep -nwFI -f <(printf '%s\n' "$pattern") "${documents[@]}" && found=1
+if [ -x "$root/build/causticl" ]; then
+  for command in '' render compare devices explain info study selftest; do
+    "$root/build/causticl" ${command:+"$command"} --help | grep -nwF -f <(printf '%s\n' "$pattern") && found=1
+  done
+fi
+exit $found
