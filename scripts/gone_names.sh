@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Usage: scripts/gone_names.sh
+# Usage: scripts/gone_names.sh [CAUSTICL]
 # Finds names that the tree has given up for the field's own (docs/glossary.md) in host/, cl/, tests/, the documents and what
-# --help prints. Prints each place and fails where there is any. CHANGELOG.md and docs/performance-log.md may name them.
+# --help of the program CAUSTICL (build/causticl) prints. Prints each place and fails where there is any. CHANGELOG.md and docs/performance-log.md may name them.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
@@ -16,12 +16,12 @@ names=(
   LAYER_DIRECT LAYER_INDIRECT LOOKING_VERTICES LOOPED_EMISSION LOOPED_EVENTS LOOPED_RECEIVERS NEEDLE_SINE2
   NOISE_OF_BLUR OUTPUT_LAYERS PHOTONS_COPIES PHOTONS_SCOUTS PHOTONS_SEEDS PHOTONS_TO_AIM_BY PHOTON_LAYER_SHIFT
   PhotonAim PhotonGuide RECEIVERS_SIDE_BY_SIDE Receivers SeedStatistics UnshadowedLight VisibleLayers
-  WAVE_BRUTE_FORCE WAVE_CAPACITY WAVE_REFILL WAVE_SIDE_BY_SIDE WAVE_STEP Wave WaveHits WaveWalk World
+  WAVE_BRUTE_FORCE WAVE_CAPACITY WAVE_REFILL WAVE_SIDE_BY_SIDE WAVE_STEP Wave WaveHits WaveWalk
   WorldBuilder added_blur aim_cell aim_cells aim_landed aim_square along3 arriving_cosine block_meets
   blur_around build_world check_waves closest_in_wave count_faults coverage_add coverage_closest
   coverage_goes_on coverage_mean coverage_of coverage_probe coverage_wanted difference3 distant_origin
   even_and_apart fault_kinds fault_warnings file_fingerprint fingerprint_now fingerprint_of first_hit
-  first_hit_buffer_ first_hit_bytes_ first_hits first_hits_ first_hits_of geometry_surface_parts has_needles
+  first_hit_buffer_ first_hit_bytes_ first_hits_ first_hits_of geometry_surface_parts has_needles
   history_after history_layer is_knob is_marked kdtree_wave kernels_fingerprint landed_ landed_here
   layers_gathered least_scouts look_along_lobe look_aside mark_bytes mark_cells mark_facing marked_across
   marked_share marks_ meet_all meet_one meet_others meets_box most_copies most_scouts needle_checks
@@ -44,12 +44,27 @@ for page in "$root"/docs/*.md; do
 done
 pattern=$(printf '%s\n' "${names[@]}")
 found=0
+# Takes the exit code of a search: 0 where something was found, 1 where nothing was, and else an error.
+note() {
+  [ "$1" -le 1 ] || { echo "error: a search failed" >&2; exit 2; }
+  [ "$1" -eq 1 ] || found=1
+}
+code=0
 grep -rnwFI -f <(printf '%s\n' "$pattern") --include='*.cpp' --include='*.hpp' --include='*.cl' --include='*.h' --include='*.patch' \
-  "$root/host" "$root/cl" "$root/tests" && found=1
-grep -nwFI -f <(printf '%s\n' "$pattern") "${documents[@]}" && found=1
-if [ -x "$root/build/causticl" ]; then
+  "$root/host" "$root/cl" "$root/tests" || code=$?
+note $code
+code=0
+grep -nwFI -f <(printf '%s\n' "$pattern") "${documents[@]}" || code=$?
+note $code
+causticl=${1:-$root/build/causticl}
+help=$(mktemp)
+trap 'rm -f "$help"' EXIT
+if [ -x "$causticl" ]; then
   for command in '' render compare devices explain info study selftest; do
-    "$root/build/causticl" ${command:+"$command"} --help | grep -nwF -f <(printf '%s\n' "$pattern") && found=1
+    "$causticl" ${command:+"$command"} --help >"$help"
+    code=0
+    grep -nwF -f <(printf '%s\n' "$pattern") "$help" || code=$?
+    note $code
   done
 fi
 exit $found

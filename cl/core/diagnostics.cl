@@ -3,7 +3,7 @@
 #include "core/prelude.cl"
 #include "shared/types.h"
 
-// What befell a ray on its way, as bits of Hit.faults.
+// What befell a ray on its way, as bits of Hit.diagnostics.
 #define DIAGNOSTIC_UNRESOLVED 1u       // a hit on a revolved curve stands for arcs that could not be told apart
 #define DIAGNOSTIC_TRAVERSAL_BOUND 2u  // the walk through the tree was cut short
 #define DIAGNOSTIC_MEDIA_FULL 4u       // more dielectrics hold one place than a path can keep

@@ -5,7 +5,7 @@
 #include "shared/effects.h"
 #include "core/prelude.cl"
 
-// Whether a loop of independent steps is to be vectorised where effects in `looped` would keep it from that: where the
+// Whether a loop of independent steps is to be vectorised where effects in `not_batched` would keep it from that: where the
 // items of a work-group run one after the other, as PoCL's do. Other devices have vectors of items.
 #if defined(POCL_DEVICE_ADDRESS_BITS) && !defined(CAUSTICL_DOUBLE)
 // The driver vectorises when it makes the kernel of a program, and would warn that it did not before.

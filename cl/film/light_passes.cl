@@ -22,7 +22,7 @@ INLINE uint prefix_after(uint prefix, bool specular) {
   return prefix == PREFIX_NO_DIFFUSE ? PREFIX_DIRECT : PREFIX_SCATTERED;
 }
 
-// LAYER_*: of light whose source lies at the end of that history.
+// LIGHT_PASS_*: of light whose source lies at the end of that history.
 INLINE uint prefix_light_pass(uint prefix) { return max(prefix, PREFIX_DIRECT) - PREFIX_DIRECT; }
 
 // The mark of a visible point at the end of that history.

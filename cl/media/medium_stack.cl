@@ -35,7 +35,7 @@ INLINE bool medium_stack_holds(const MediumStack *stack, uint material) {
   return false;
 }
 
-// Enters a body. Adds to *faults where there is no room.
+// Enters a body. Adds to *diagnostics where there is no room.
 INLINE void medium_stack_enter(MediumStack *stack, uint material, uint *diagnostics) {
   if (stack->count == MEDIUM_STACK_CAPACITY) {
     *diagnostics |= DIAGNOSTIC_MEDIA_FULL;

@@ -51,7 +51,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint rays = 0;
   real bsdf_pdf = 0;  // of the last direction; 0 where no shadow ray could find what it does
-  bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
+  bool counted = false;  // the emission ahead is, by path_splitting.cl
   bool beyond = false;  // past a diffuse surface: there counts what photons do not carry, see horizon.cl
   real3 segment = (real3)(0, 0, 0);  // of a visible point in the medium
   Interior interior = interior_none();

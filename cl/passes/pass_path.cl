@@ -32,7 +32,7 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
   Radiance radiance = radiance_none();
   uint prefix = PREFIX_NO_DIFFUSE;
   real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
-  bool counted = false;  // the emission ahead is, by unlikely_lobe.cl
+  bool counted = false;  // the emission ahead is, by path_splitting.cl
   Interior interior = interior_none();
   Boundary boundary;
   boundary_at_camera(scene, &boundary, ray, &interior, counters);

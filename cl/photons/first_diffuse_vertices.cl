@@ -1,5 +1,5 @@
 // Camera paths that have come to a diffuse surface, in a batch: their visible points, and light that comes there straight
-// from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and wave.cl).
+// from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and photon_stream.cl).
 #include "photons/kernel_area.cl"
 #include "lights/direct.cl"
 #include "photons/grid.cl"
@@ -26,7 +26,7 @@ typedef struct {
   real t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
   uint primitive[STREAM_CAPACITY];  // as in Hit
   real throughput[3][STREAM_CAPACITY], radiance[3][STREAM_CAPACITY];
-  uint counted[STREAM_CAPACITY];  // whether the emission there is, by unlikely_lobe.cl
+  uint counted[STREAM_CAPACITY];  // whether the emission there is, by path_splitting.cl
   uint depth[STREAM_CAPACITY];    // of the vertex
   uint pixel[STREAM_CAPACITY], sample[STREAM_CAPACITY];  // of the path
 
@@ -184,7 +184,7 @@ OUTLINE uint diffuse_vertices_occlusion(const Scene *scene, uint count, DiffuseV
   return rays;
 }
 
-// Probes the disc of the visible points that are to (coverage.cl). Returns the number of rays.
+// Probes the disc of the visible points that are to (kernel_area.cl). Returns the number of rays.
 OUTLINE uint diffuse_vertices_probe(const Scene *scene, const Params *params, uint count, DiffuseVertices *r,
                              global const SppmPixel *pixels, volatile global Counters *counters) {
   uint rays = 0;

@@ -12,7 +12,7 @@ typedef struct {
   uint count;
 } Gathered;
 
-// LAYER_* of a photon's word of blue flux.
+// LIGHT_PASS_* of a photon's word of blue flux.
 INLINE uint photon_light_pass(uint flux_b) { return flux_b >> PHOTON_LIGHT_PASS_SHIFT; }
 
 // The same by lanes of eight photons, which the ranges of a search share.

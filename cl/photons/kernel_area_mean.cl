@@ -1,4 +1,4 @@
-// The mean of a pixel's probes, see coverage.cl. SppmPixel.coverage holds two of them, for the radius and for half of it, in
+// The mean of a pixel's probes, see kernel_area.cl. SppmPixel.coverage holds two of them, for the radius and for half of it, in
 // 16 bits each: seven bits of how many probes, and the others of their sum.
 #include "core/prelude.cl"
 #include "shared/types.h"

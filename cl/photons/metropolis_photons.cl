@@ -16,7 +16,7 @@
 #include "core/work_group.cl"
 
 // What Metropolis photons read and write beside the map: `seeds` holds the numbers of the pilot paths that became seeds, in any
-// order, `accepted` how many copies of each were; for `marks` see marked_cells.cl, for `emission` emission_map.cl, which
+// order, `accepted` how many copies of each were; for `marks` see visibility_grid.cl, for `emission` emission_map.cl, which
 // has no cells where photons start everywhere.
 typedef struct {
   global uint2 *seeds;

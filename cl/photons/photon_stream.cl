@@ -27,7 +27,7 @@
 
 // What befell a photon at one event of its path, as bits.
 #define EVENT_ALIVE 1u       // it goes on
-#define EVENT_STORED 2u      // `landed` holds its record
+#define EVENT_STORED 2u      // `deposited` holds its record
 #define EVENT_SATURATED 4u   // that had more flux than it holds
 #define EVENT_NON_FINITE 8u  // it had no finite record
 #define EVENT_DEPOSITED_ELSEWHERE 16u     // the record is not to be stored, since shadow rays bring that light
@@ -42,7 +42,7 @@ typedef struct {
   uint mark;  // INDIRECT_PHOTON, or 0
   Interior interior;
   PathMedia media;  // with EFFECT_NESTED
-  // FAULT_* of the present event, with EFFECT_NESTED. Here, since a variable of its own that the event is given a pointer to
+  // DIAGNOSTIC_* of the present event, with EFFECT_NESTED. Here, since a variable of its own that the event is given a pointer to
   // keeps the loop over events scalar.
   uint diagnostics;
 } PhotonState;

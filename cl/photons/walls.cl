@@ -4,7 +4,7 @@
 // - the straight line between the two, which suffices on flat and on hollow surfaces;
 // - up along the normal of the one, across, and down along the normal of the other, which passes over a surface that
 //   bulges between the two.
-// The correction of the kernel's area (coverage.cl) asks the same, so that area behind a wall is not divided by.
+// The correction of the kernel's area (kernel_area.cl) asks the same, so that area behind a wall is not divided by.
 #include "core/prelude.cl"
 #include "shared/types.h"
 

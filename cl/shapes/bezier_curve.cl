@@ -45,7 +45,7 @@ INLINE real2 bezier_profile_normal(global const float *curve, global const float
   return normalize((real2)(derivative.y, -derivative.x)) * (real)curve[3];
 }
 
-// FlatScene position and outward unit normal at angle 2 pi u and curve parameter v, and |dP/du x dP/dv|: the area of
+// World position and outward unit normal at angle 2 pi u and curve parameter v, and |dP/du x dP/dv|: the area of
 // the world for a unit of (u, v).
 INLINE void bezier_point(global const Shape *shape, global const float *curves, real u, real v, real3 *position,
                          real3 *normal, real *area_element) {

@@ -14,7 +14,7 @@ typedef struct {
   real t;
   uint primitive;  // HIT_NONE; HIT_SHAPE | index into shapes; else a triangle reference
   real u, v;       // triangle: barycentric weights of vertices 1 and 2; bezier: see bezier.cl; else unused
-  uint diagnostics;     // FAULT_* bits of this ray; see faults.cl
+  uint diagnostics;     // DIAGNOSTIC_* bits of this ray; see diagnostics.cl
 } Hit;
 
 // Rays by component, and up to where they are traced or what they have met so far, as Hit has it.

@@ -25,7 +25,7 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   return true;
 }
 
-// Whether the ray meets the shape at 0 < t < t_max. Adds to *faults.
+// Whether the ray meets the shape at 0 < t < t_max. Adds to *diagnostics.
 INLINE bool shape_occluded(global const Shape *shape, global const float *curves, Ray ray, real t_max, uint *diagnostics) {
   Hit hit = hit_none(t_max);
   bool occluded = shape_closest(shape, 0, curves, ray, &hit);

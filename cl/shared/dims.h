@@ -4,7 +4,7 @@
 
 #define DIM_FILM 0u          // position in the pixel (xy), lens (zw)
 #define DIM_EMITTER 1u       // which emitter (xw), point on it (yz), side of it (w)
-#define DIM_EMISSION 2u      // direction (xy), whether it keeps the cell of aimed_photons.cl (z)
+#define DIM_EMISSION 2u      // direction (xy), whether it keeps the cell of projection_map.cl (z)
 #define DIM_EMISSION_CELL 3u // cell of emission_map.cl (x)
 #define DIM_BOUNCE_FIRST 8u  // first dimension of vertex 0
 #define DIM_BOUNCE_STRIDE 8u

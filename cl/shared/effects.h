@@ -41,6 +41,6 @@
 #define EFFECT_ALL ((1u << 26) - 1u)
 
 // Compiled in like an effect, but asked for by the user and by no scene.
-#define OUTPUT_LIGHT_PASSES (1u << 31)  // the layers of layers.cl beside the picture
+#define OUTPUT_LIGHT_PASSES (1u << 31)  // the layers of light_passes.cl beside the picture
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)

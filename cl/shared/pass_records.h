@@ -1,7 +1,7 @@
 // What the host tells the kernels of a pass, and what these count. Part of types.h.
 #pragma once
 
-// What the photons of a launch are: see aimed_photons.cl for those before the first pass, and guided_photons.cl for those
+// What the photons of a launch are: see projection_map.cl for those before the first pass, and metropolis_photons.cl for those
 // from PHOTONS_PILOT_PATHS on.
 #define PHOTONS_PLAIN 0u
 #define PHOTONS_FOR_PROJECTION_MAP 1u
@@ -51,7 +51,7 @@ typedef struct {
   uint photon_role;          // PHOTONS_*
   uint photon_mutations;        // of each seed
   uint sobol;                // 1 where the sample dimensions of camera paths are those of sobol.cl, 0 where they are independent
-  uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see coverage.cl
+  uint coverage;             // 1 where visible points probe how much of their kernel lies on surfaces: see kernel_area.cl
   uint nested;               // NESTED_* bits; 0 where no dielectric touches or holds anything
   float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
   float inside_direction[3];  // of the rays by which the dielectrics around a point are found
@@ -67,7 +67,7 @@ CHECK_SIZE(Params, 304);
 // Items of a work-group, at most: kernels keep a number for each in local memory.
 #define LARGEST_WORK_GROUP 256u
 
-// A cell of aimed_photons.cl, as in an alias table (Walker 1977).
+// A cell of projection_map.cl, as in an alias table (Walker 1977).
 typedef struct {
   float stay;   // the probability that numbers which fall into it keep it
   uint other;   // where they go else: a cell of the same square

@@ -11,7 +11,7 @@
 // a larger radius (Jensen, "Global Illumination using Photon Maps", 1996, keeps two maps for the same reason).
 #define INDIRECT_PHOTON 0x40000000u
 
-// What the probe of coverage.cl tells, in VisiblePoint.normal: that there is one, whether it is of the disc of half
+// What the probe of kernel_area.cl tells, in VisiblePoint.normal: that there is one, whether it is of the disc of half
 // the radius, and how much surface there is over its place, by area: 0 to 2, drawn so that its expectation is exact.
 #define KERNEL_AREA_PROBED 0x08000000u
 #define KERNEL_AREA_OF_HALF 0x04000000u
@@ -24,7 +24,7 @@
 // its beginning, it is radiance at the camera.
 typedef struct {
   real position[3];
-  uint normal;         // normal_pack, facing the camera path, and COVERAGE_*; in the medium, nothing but marks
+  uint normal;         // normal_pack, facing the camera path, and KERNEL_AREA_*; in the medium, nothing but marks
   real weight[3];
   real radiance[3];    // emission seen by the path and direct light by shadow rays
 } VisiblePoint;

@@ -24,7 +24,7 @@ typedef struct {
 } FilmPixel;
 CHECK_SIZE(FilmPixel, 48);
 
-// The layers of a picture, see layers.cl.
+// The layers of a picture, see light_passes.cl.
 #define LIGHT_PASS_DIRECT 0u
 #define LIGHT_PASS_CAUSTIC 1u
 #define LIGHT_PASS_INDIRECT 2u

@@ -35,7 +35,7 @@ INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
   return found;
 }
 
-// Whether anything is met for 0 < t < t_max. Adds to *faults.
+// Whether anything is met for 0 < t < t_max. Adds to *diagnostics.
 INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *diagnostics) {
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i)

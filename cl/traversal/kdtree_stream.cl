@@ -191,7 +191,7 @@ INLINE void backtrack(global const KdNode *nodes, StreamTraversal *traverse, uin
 }
 
 // The nearest hits before rays->t of `count` rays, STREAM_CAPACITY at most. Reads them up to stream_padded(count). Writes
-// their FAULT_* bits to `faults`.
+// their DIAGNOSTIC_* bits to `diagnostics`.
 OUTLINE void kdtree_stream(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                          global const float *curves, const RayArrays *arrays, uint count, uint *diagnostics) {
   const RayArrays rays = *arrays;

@@ -93,7 +93,7 @@ INLINE Ray first_ray(global const PrimaryHit *first) {
   return ray;
 }
 
-// geometry_closest() along first_ray(), but that its faults have been counted.
+// geometry_closest() along first_ray(), but that its diagnostics have been counted.
 INLINE bool primary_hit(global const PrimaryHit *first, Hit *hit) {
   hit->t = first->t, hit->u = first->u, hit->v = first->v;
   hit->primitive = first->primitive;

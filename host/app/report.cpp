@@ -75,6 +75,13 @@ std::string pass_table(const std::vector<PassStatistics>& passes) {
   return text;
 }
 
+/// The key of a kernel: scripts know those that have another name now by their old one.
+std::string json_key(const std::string& kernel) {
+  if (kernel == "primary_hits") return "first_hits";
+  if (kernel == "count_visible") return "count_marked";
+  return kernel;
+}
+
 }  // namespace
 
 std::string byte_size(double bytes) {
@@ -136,8 +143,8 @@ std::string statistics_table(const Statistics& s) {
 std::string statistics_json(const Statistics& s) {
   nlohmann::ordered_json milliseconds = nlohmann::ordered_json::object(), launches = milliseconds;
   for (const auto& [kernel, time] : s.kernels) {
-    milliseconds[kernel] = time.milliseconds;
-    launches[kernel] = time.launches;
+    milliseconds[json_key(kernel)] = time.milliseconds;
+    launches[json_key(kernel)] = time.launches;
   }
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
   for (const auto& pass : s.pass_programs)

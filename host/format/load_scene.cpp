@@ -121,7 +121,11 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   refuse_infinite_light(json, scene);
   warn_without_light(json, loader);
   const auto lifted = lift_flush_emitters(scene);
-  if (!lifted.empty()) loader.notice(json, lifted[0] + (lifted.size() > 1 ? "; and others" : ""));
+  constexpr std::size_t most_lifted = 4;
+  for (std::size_t i = 0; i < std::min(most_lifted, lifted.size()); ++i) loader.notice(json, lifted[i]);
+  if (lifted.size() > most_lifted)
+    loader.notice(json,
+                  std::to_string(lifted.size() - most_lifted) + " more emitters are moved out of surfaces");
   return std::move(scene);
 }
 

@@ -64,7 +64,7 @@ void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>
 
 std::vector<Channel> layer_channels(std::size_t pixels) {
   std::vector<Channel> channels;
-  for (const char* layer : {"direct", "caustic", "indirect"})  // LAYER_* of cl/shared/pixel_records.h
+  for (const char* layer : {"direct", "caustic", "indirect"})  // LIGHT_PASS_* of cl/shared/pixel_records.h
     for (const char* color : {".R", ".G", ".B"})
       channels.push_back({std::string(layer) + color, std::vector<float>(pixels)});
   return channels;

@@ -38,7 +38,7 @@ struct Pilot {
   double useful = 1;             // of the photons, that land where the camera sees
   std::vector<EmissionCell> emission;  // by which photons start; empty: everywhere
   double useful_by_map = 0;            // the same with the map
-  bool copies = false;                 // of useful photons: see photon_guide.hpp
+  bool copies = false;                 // of useful photons: see metropolis_photons.hpp
 };
 
 /// What was decided and why, a line each; for notes and for `explain`.

@@ -5,10 +5,11 @@
 
 namespace causticl {
 
-/// Moves flat emitters that lie in an opaque surface, as far as single precision can tell, clear of it: rays
-/// would meet one or the other by chance. The emitter goes to the side of the surface that it lies on in
-/// double precision; where it lies exactly in it, to the side that its normal points to, so that it shines.
-/// Returns the pointers of those that were moved.
+/// Moves flat emitters that lie in an opaque flat surface, as far as single precision can tell, out of it:
+/// rays would hit one or the other by chance. A one-sided emitter goes to the side that it shines to, a
+/// two-sided one to the side on which it lies in double precision. It moves by a few roundings of the
+/// coordinates there. Not where the two move apart; glass is left to cl/scene/contact.cl. Returns what was
+/// moved, as sentences for the user.
 std::vector<std::string> lift_flush_emitters(Scene& scene);
 
 }  // namespace causticl

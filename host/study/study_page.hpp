@@ -8,7 +8,7 @@
 
 namespace causticl {
 
-/// The parts of the page, from host/study_page.{html,css,plot.js,js}, that travel inside the binary.
+/// The parts of the page, from host/study/study_page.{html,css,plot.js,js}, that travel inside the binary.
 extern const char* const study_page_html;
 extern const char* const study_page_css;
 extern const char* const study_page_plot_js;

@@ -58,7 +58,7 @@ TEST_CASE("the second run takes its kernels from the first; damaged ones are bui
   // Another source is another program: the others stay.
   const std::string path = folder.path("");
   const Environment environment = kept_in(folder);
-  fs::copy(CAUSTICL_SOURCE_DIR "/cl", folder.path("cl"));
+  fs::copy(CAUSTICL_SOURCE_DIR "/cl", folder.path("cl"), fs::copy_options::recursive);
   std::ofstream(folder.path("cl/passes/pass_film.cl"), std::ios::app) << "\n// another\n";
   Finished changed = run_causticl(render_to("e.pfm") + Words{"--kernel-dir", "cl"}, path, environment);
   check_success(changed);

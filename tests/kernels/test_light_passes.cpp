@@ -12,7 +12,7 @@ namespace {
 
 constexpr unsigned with_layers = EFFECT_ALL | OUTPUT_LIGHT_PASSES;
 
-/// By the regular expressions of layers.cl, for a path from the camera E to the light L.
+/// By the regular expressions of light_passes.cl, for a path from the camera E to the light L.
 uint layer_of(const std::string& path) {
   static const std::regex direct("ES*D?L"), caustic("ES*DS+L");
   if (std::regex_match(path, direct)) return LIGHT_PASS_DIRECT;

@@ -42,7 +42,7 @@ std::vector<cl_uint> landed_by(RandomInputs& random) {
   return deposited;
 }
 
-/// How likely each cell is to be, by what photon_aim.hpp says.
+/// How likely each cell is to be, by what projection_map.hpp says.
 std::vector<double> wanted(const std::vector<cl_uint>& deposited) {
   const int side = PROJECTION_SIDE;
   const double weights[] = {0.25, 0.5, 0.25};
@@ -209,7 +209,7 @@ TEST_CASE("photons by the projection map make the same picture with less noise w
   }
 }
 
-TEST_CASE("scouts are no part of what the passes are reported to have traced") {
+TEST_CASE("pilot paths are no part of what the passes are reported to have traced") {
   const auto rays = [](int passes) {
     return static_cast<double>(
         render_with(ball_of_glass(true, true), Integrator::sppm, passes).statistics.rays);

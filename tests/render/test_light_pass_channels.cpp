@@ -14,7 +14,7 @@ using namespace causticl;
 
 namespace {
 
-/// As LAYER_* of cl/shared/pixel_records.h.
+/// As LIGHT_PASS_* of cl/shared/pixel_records.h.
 constexpr std::array layer_names{"direct", "caustic", "indirect"};
 
 /// A table, walls of a box around it, a large lamp above, and what stands on the table. `more` is put before

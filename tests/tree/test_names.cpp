@@ -6,7 +6,8 @@
 #include "catch2.hpp"
 
 TEST_CASE("no name that was given up is left in the sources, the documents and the help") {
-  std::FILE* pipe = popen("bash '" CAUSTICL_SOURCE_DIR "/scripts/gone_names.sh' 2>&1", "r");
+  std::FILE* pipe =
+      popen("bash '" CAUSTICL_SOURCE_DIR "/scripts/gone_names.sh' '" CAUSTICL_BINARY "' 2>&1", "r");
   REQUIRE(pipe);
   std::string found;
   char text[4096];
