@@ -51,8 +51,8 @@ TEST_CASE("photons that a diffuse surface has scattered are marked as indirect, 
                 {"type": "sphere", "material": "glass", "radius": 0.5,
                  "transform": [{"type": "shift", "x": 0.8, "y": 0.6, "z": 0}]}]})");
   const auto [photons, counters] = traced(scene, 20000);
-  // Without rough lobes and media, a photon's light is indirect in the sense of light_passes.cl after the same
-  // events.
+  // Without rough lobes and media, a photon's light is indirect in the sense of light_passes.cl after the
+  // same events.
   std::size_t of_layer[LIGHT_PASS_COUNT] = {}, wrong = 0;
   for (const Photon& photon : photons) {
     const uint layer = photon.flux_b >> PHOTON_LIGHT_PASS_SHIFT;
