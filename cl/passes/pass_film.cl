@@ -98,7 +98,8 @@ typedef struct {
   float mean, deviation;
   uint pixels;
 } KernelBias;
-INLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
+// Not inlined: the compiler of PoCL 6 (LLVM 19) fails on the kernel otherwise.
+OUTLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
   float first = 0, second = 0;
   KernelBias kernel_bias = {0, 0, 0};
   for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
