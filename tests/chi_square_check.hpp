@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "selftest/chi_square.hpp"
 
 namespace causticl {

@@ -4,8 +4,8 @@
 #include <random>
 #include <string>
 #include <vector>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "opencl/device.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "shared/effects.h"

@@ -43,9 +43,9 @@ Scene sky_of_one() {
   return scene;
 }
 
-/// Six places in a batch: boxes that share a face; boxes that overlap; a ball in a ball in a box, the last
-/// of index 1; tangent balls; a thin coat; a ball on a mirror. With `turned` the other way round, since of
-/// surfaces at one place the one that is found first depends on the order.
+/// Six arrangements beside each other: boxes that share a face; boxes that overlap; a ball in a ball in a
+/// box, the last of index 1; tangent balls; a thin coat; a ball on a mirror. With `turned` the other way
+/// round, since of surfaces at one place the one that is found first depends on the order.
 Scene contacts(bool turned) {
   Scene scene = sky_of_one();
   add_box(scene, {1, 1, 1}, {-2, 1.5, 0}, 1.5);

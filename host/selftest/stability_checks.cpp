@@ -11,6 +11,7 @@ std::vector<Check> stability_checks() {
                             triangle_checks(),
                             sliver_checks(),
                             slab_checks(),
+                            flat_box_checks(),
                             kdtree_checks(),
                             spawned_ray_checks(),
                             placement_checks(),

@@ -14,7 +14,8 @@ std::vector<Check> stability_checks();
 std::vector<Check> sphere_checks();               // hard cases 1 and 2
 std::vector<Check> triangle_checks();             // hard cases 3 and 4
 std::vector<Check> sliver_checks();               // hard case 5
-std::vector<Check> slab_checks();                 // hard case 6
+std::vector<Check> slab_checks();                 // hard case 6: the slab test
+std::vector<Check> flat_box_checks();             // hard case 6: through the tree
 std::vector<Check> kdtree_checks();               // hard case 7
 std::vector<Check> spawned_ray_checks();          // hard case 8
 std::vector<Check> placement_checks();            // hard case 9

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "process.hpp"
 #include "temporary_folder.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 #include <filesystem>
-#include "catch2.hpp"
 
 #include "bad_scenes.hpp"
+#include "catch2.hpp"
 #include "format/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"

@@ -1,8 +1,8 @@
 // Kernels that are kept between runs of `causticl`: the picture is the same to the bit, whatever happened to
 // the folder, and a line says what.
 #include <thread>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "small_render.hpp"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "process.hpp"
 #include "temporary_folder.hpp"

@@ -1,7 +1,7 @@
 // Entries of kernels with a flipped bit, met by the program itself: none is used, each is built anew.
 #include <random>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "small_render.hpp"
 

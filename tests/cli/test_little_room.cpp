@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 
 #include <thread>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "measured.hpp"
 #include "small_render.hpp"

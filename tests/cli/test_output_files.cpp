@@ -4,11 +4,11 @@
 
 #include <csignal>
 #include <cstdlib>
-#include "catch2.hpp"
 
 #include "base/console.hpp"
 #include "base/output_file.hpp"
 #include "base/temporary_file.hpp"
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "small_render.hpp"
 

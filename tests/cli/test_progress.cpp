@@ -1,7 +1,7 @@
 // What a user sees and may do while a render runs: progress, signals, limits of time.
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "small_render.hpp"
 

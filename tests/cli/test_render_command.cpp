@@ -1,7 +1,7 @@
 // `causticl render` as a user meets it: files, reproducible bytes, statistics, kernels.
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "small_render.hpp"
 

@@ -2,8 +2,8 @@
 #include <sys/wait.h>
 
 #include <cstdio>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "process.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
 // `causticl study` as a user meets it: its files, a budget, being killed and going on, and what it refuses.
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
 #include "base/temporary_file.hpp"
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "small_render.hpp"
 

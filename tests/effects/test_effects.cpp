@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include "catch2.hpp"
 
 #include "base/error.hpp"
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
 #include "effects/effects.hpp"

@@ -2,8 +2,8 @@
 #include "render/explain.hpp"
 
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
 #include "render/render_fixture.hpp"

@@ -1,8 +1,8 @@
 // Passes that cannot change the picture do not run: by the counters of launches, and by the picture.
 #include <algorithm>
 #include <filesystem>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
 #include "effects/passes.hpp"

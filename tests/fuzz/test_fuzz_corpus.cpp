@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "fuzz_input.hpp"
 
 namespace causticl {

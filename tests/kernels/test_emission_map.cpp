@@ -1,7 +1,7 @@
 // The map by which photons start: cells that fill the cube, drawn by the device as often as the host says.
 #include <cmath>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "photons/emission_map.hpp"
 

@@ -1,6 +1,5 @@
-#include "chi_square_check.hpp"
-#include "device_scene/device_scene.hpp"
-#include "vector_inputs.hpp"
+// The choice of an emitter, and points on it.
+#include "light_fixture.hpp"
 
 using namespace causticl;
 
@@ -62,26 +61,6 @@ kernel void density(SCENE_PARAMETERS, global const float4 *directions, global fl
   }
   out[i] = sum;
 }
-kernel void emit(SCENE_PARAMETERS, global float4 *origins, global float4 *directions, global float4 *fluxes, uint count,
-                 Params params) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  SCENE_INIT(params);
-  RandomStream stream = {params.seed, params.pass, i};
-  real3 flux;
-  real4 direction = random4(stream, DIM_EMISSION);
-  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
-  origins[i] = (float4)(ray.origin, 0);
-  directions[i] = (float4)(ray.direction, 0);
-  fluxes[i] = (float4)(flux, 0);
-}
-kernel void quantise(global const float2 *in, global uint2 *out, uint count) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  bool saturated = false;
-  uint units = flux_quantise(in[i].x, in[i].y, &saturated);
-  out[i] = (uint2)(units, saturated);
-}
 )";
 
 struct Output {
@@ -90,7 +69,6 @@ struct Output {
 
 constexpr std::size_t sample_count = 1 << 20;
 constexpr std::size_t case_count = 1 << 18;  // for each of seven lights
-constexpr int histograms = 23;               // in this file, for Sidak's correction
 using Shape3 = Object::Shape;
 
 cl::Program& program() {
@@ -98,71 +76,20 @@ cl::Program& program() {
   return built;
 }
 
-void add_light(Scene& scene, Shape3 shape, const Transform& transform, double radius, Color emission,
-               bool two_sided) {
-  Object object;
-  object.shape = shape;
-  object.transform = transform;
-  object.radius = radius;
-  if (shape == Shape3::bezier) object.points = {{0.4, -1}, {1.5, -0.4}, {0.1, 0.5}, {0.8, 1}};
-  object.material = static_cast<int>(scene.materials.size());
-  MaterialSpec material;
-  material.emission = emission;
-  material.two_sided = two_sided;
-  scene.materials.push_back(material);
-  scene.objects.push_back(object);
+std::vector<Output> sample(const Lights& lights, const std::vector<float4>& uniform, Vec3 position) {
+  auto in = test_device().upload(uniform, "uniform");
+  auto out = test_device().buffer(uniform.size() * sizeof(Output), "samples");
+  lights.run("sample", uniform.size(), in, out, cl_uint(uniform.size()), to_float4(position), lights.params);
+  return test_device().download<Output>(out, uniform.size());
 }
 
-/// A scene on the device with kernels run over it.
-struct Lights {
-  DeviceScene scene;
-  Params params{};
-  explicit Lights(const Scene& spec) : scene(update_device_scene(spec, test_device(), 1)) {
-    params.emitter_count = scene.emitter_count;
-    params.emitter_density = static_cast<float>(1 / scene.emitted_power);
-    params.plane_count = scene.plane_count;
-    params.seed = 7;
-  }
-  template <typename... Arguments>
-  void run(const char* name, std::size_t items, const Arguments&... arguments) const {
-    cl::Kernel kernel(program(), name);
-    cl_uint index = set_scene_arguments(kernel, scene);
-    (kernel.setArg(index++, arguments), ...);
-    test_device().launch(kernel, items);
-    test_device().queue().finish();
-  }
-  std::vector<Output> sample(const std::vector<float4>& uniform, Vec3 position) const {
-    auto in = test_device().upload(uniform, "uniform");
-    auto out = test_device().buffer(uniform.size() * sizeof(Output), "samples");
-    run("sample", uniform.size(), in, out, cl_uint(uniform.size()), to_float4(position), params);
-    return test_device().download<Output>(out, uniform.size());
-  }
-  std::vector<float> density(const std::vector<float4>& directions, Vec3 position, double first_above) const {
-    auto in = test_device().upload(directions, "directions");
-    auto out = test_device().buffer(directions.size() * sizeof(float), "density");
-    run("density", directions.size(), in, out, cl_uint(directions.size()), to_float4(position, first_above),
-        params);
-    return test_device().download<float>(out, directions.size());
-  }
-};
-
-struct Photons {
-  std::vector<float4> origins, directions, fluxes;
-};
-Photons emit(const Lights& lights) {
-  const std::size_t bytes = sample_count * sizeof(float4);
-  auto origins = test_device().buffer(bytes, "origins"),
-       directions = test_device().buffer(bytes, "directions"), fluxes = test_device().buffer(bytes, "fluxes");
-  lights.run("emit", sample_count, origins, directions, fluxes, cl_uint(sample_count), lights.params);
-  return {test_device().download<float4>(origins, sample_count),
-          test_device().download<float4>(directions, sample_count),
-          test_device().download<float4>(fluxes, sample_count)};
-}
-
-Histogram flat(const SquareBins& bins) {
-  Histogram histogram(bins.count());
-  histogram.probabilities.assign(bins.count(), 1.0 / static_cast<double>(bins.count()));
-  return histogram;
+std::vector<float> density_along(const Lights& lights, const std::vector<float4>& directions, Vec3 position,
+                                 double first_above) {
+  auto in = test_device().upload(directions, "directions");
+  auto out = test_device().buffer(directions.size() * sizeof(float), "density");
+  lights.run("density", directions.size(), in, out, cl_uint(directions.size()),
+             to_float4(position, first_above), lights.params);
+  return test_device().download<float>(out, directions.size());
 }
 
 }  // namespace
@@ -174,7 +101,7 @@ TEST_CASE("emitters are chosen in proportion to power") {
     add_light(scene, i % 2 ? Shape3::disk : Shape3::sphere, Transform::shift({4.0 * i, 0, 0}),
               random.uniform(0.1, 1),
               {random.uniform(0, 5), random.uniform(0, 5), std::pow(10, random.uniform(-2, 1))}, i % 3 == 0);
-  const Lights lights(scene);
+  const Lights lights(scene, program());
   Histogram histogram(40);
   double total = 0;
   for (int i = 0; i < 40; ++i) {
@@ -188,7 +115,7 @@ TEST_CASE("emitters are chosen in proportion to power") {
   auto out = test_device().buffer(sample_count * sizeof(cl_uint), "chosen");
   lights.run("choose", sample_count, in, out, cl_uint(sample_count), lights.params);
   for (const uint chosen : test_device().download<uint>(out, sample_count)) histogram.add(chosen);
-  check_chi_square(histogram, histograms, "emitter_choose");
+  check_chi_square(histogram, light_histograms, "emitter_choose");
 }
 
 TEST_CASE("light_sample draws directions with the density that it states, and that light_pdf finds again") {
@@ -213,7 +140,7 @@ TEST_CASE("light_sample draws directions with the density that it states, and th
     INFO(c.name);
     Scene spec;
     add_light(spec, c.shape, tilt, 1, {1, 4, 2}, c.two_sided);
-    const Lights lights(spec);
+    const Lights lights(spec, program());
     // The direction density, integrated over bins by jittered strata.
     const Frame frame(length(c.position) > 0 ? normalize(-c.position) : Vec3{0, 0, 1});
     const SquareBins bins{12, 24};
@@ -232,17 +159,17 @@ TEST_CASE("light_sample draws directions with the density that it states, and th
     // compared.
     const bool cone = c.shape == Shape3::sphere && length(c.position) > 1;
     const double first_above = cone ? 1e-9 : c.convex ? 0 : 0.2;
-    const auto density = lights.density(directions, c.position, first_above);
+    const auto densities = density_along(lights, directions, c.position, first_above);
     Histogram histogram(bins.count());
     double integral = 0;
-    for (std::size_t i = 0; i < density.size(); ++i) {
-      const double share = density[i] * 2 * M_PI * c.reach / static_cast<double>(nx * ny);
+    for (std::size_t i = 0; i < densities.size(); ++i) {
+      const double share = densities[i] * 2 * M_PI * c.reach / static_cast<double>(nx * ny);
       histogram.probabilities[i / nx / strata * bins.nx + i % nx / strata] += share;
       integral += share;
     }
     for (double& p : histogram.probabilities) p /= integral;
 
-    const auto samples = lights.sample(uniform_tuples(random, case_count), c.position);
+    const auto samples = sample(lights, uniform_tuples(random, case_count), c.position);
     std::size_t used = 0, seen = 0, disagree = 0, blocked = 0, wrong_weight = 0, grazing = 0;
     for (const Output& sample : samples) {
       const double pdf = sample.direction.w, distance = sample.light.x, hit_pdf = sample.light.y,
@@ -279,85 +206,6 @@ TEST_CASE("light_sample draws directions with the density that it states, and th
     CHECK(disagree <= (c.convex ? 0 : 10));
     CHECK(blocked == 0);
     CHECK(wrong_weight == 0);
-    check_chi_square(histogram, histograms, c.name);
-  }
-}
-
-TEST_CASE("photons leave uniformly over the area, by the cosine law, each channel with its share") {
-  const SquareBins bins{24, 32};
-  for (const bool two_sided : {false, true}) {
-    // A disc of radius 2 in z = 0, a square, a sphere of radius 3 and a revolved curve.
-    for (const Shape3 shape : {Shape3::disk, Shape3::rectangle, Shape3::sphere, Shape3::bezier}) {
-      CAPTURE(int(shape), two_sided);
-      Scene spec;
-      const double radius = shape == Shape3::sphere ? 3 : 2;
-      add_light(spec, shape, {}, radius, {1, 4, 2}, two_sided);
-      const Photons photons = emit(Lights(spec));
-      Histogram places = flat(bins), directions = flat(bins);
-      double flux = 0, flux2 = 0;
-      std::size_t front = 0, wrong_flux = 0, wrong_start = 0;
-      for (std::size_t i = 0; i < sample_count; ++i) {
-        const Vec3 p = to_vec3(photons.origins[i]), d = to_vec3(photons.directions[i]),
-                   f = to_vec3(photons.fluxes[i]);
-        flux += f.y;
-        flux2 += f.y * f.y;
-        wrong_flux += !(std::fabs(f.x - f.y / 4) < 1e-6 && std::fabs(f.z - f.y / 2) < 1e-6);
-        if (shape == Shape3::bezier) continue;
-        wrong_flux += !(std::fabs(f.y - 1) < 1e-5);
-        const Vec3 normal = shape == Shape3::sphere ? normalize(p) : Vec3{0, 0, 1};
-        const double cosine = dot(d, normal), height = shape == Shape3::sphere ? length(p) - radius : p.z;
-        front += cosine > 0;
-        // Off the surface by about its rounding, on the side that the photon goes to.
-        wrong_start += !(std::fabs(height) < 1e-5) || (shape != Shape3::sphere && height * cosine <= 0);
-        const Vec3 local = Frame(normal).to_local(d);
-        directions.add(bins.bin(cosine * cosine, turn(local.y, local.x)));
-        if (shape == Shape3::disk)
-          places.add(bins.bin((p.x * p.x + p.y * p.y) / (radius * radius), turn(p.y, p.x)));
-        else if (shape == Shape3::rectangle)
-          places.add(bins.bin(p.x + 0.5, p.y + 0.5));
-        else
-          places.add(bins.bin(normal.z / 2 + 0.5, turn(p.y, p.x)));
-      }
-      // The mean of a curve's flux is 1: what its points lack in uniformity, their flux makes up for.
-      const double mean = flux / sample_count,
-                   deviation = std::sqrt(std::max(0.0, flux2 / sample_count - mean * mean));
-      CHECK(std::fabs(mean - 1) < 1e-4 + 5 * deviation / std::sqrt(sample_count));
-      CHECK(wrong_flux == 0);
-      if (shape == Shape3::bezier) continue;
-      CHECK(wrong_start == 0);
-      if (two_sided)
-        CHECK(std::fabs(double(front) - sample_count / 2.0) < 5 * std::sqrt(sample_count / 4.0));
-      else
-        CHECK(front == sample_count);
-      check_chi_square(places, histograms, "places");
-      check_chi_square(directions, histograms, "directions");
-    }
-  }
-}
-
-TEST_CASE("flux is quantised without bias, and says where it does not fit") {
-  RandomInputs random(94);
-  const std::vector<float> fluxes{0, 1e-6f,   3.7e-5f, 0.3f, 1,    2.71828f, 3.9999f,
-                                  4, 15.999f, 16,      17,   1e6f, INFINITY};
-  constexpr std::size_t each = 1 << 18;
-  std::vector<float2> in;
-  for (const float flux : fluxes)
-    for (std::size_t i = 0; i < each; ++i) in.push_back({flux, uniform24(random)});
-  const auto units = outputs_of<uint2>(program(), "quantise", in);
-  for (std::size_t f = 0; f < fluxes.size(); ++f) {
-    CAPTURE(fluxes[f]);
-    double sum = 0;
-    std::size_t saturated = 0, wrong = 0;
-    const double exact = static_cast<double>(fluxes[f]) * PHOTON_FLUX_UNIT;
-    for (std::size_t i = f * each; i < (f + 1) * each; ++i) {
-      sum += units[i].x;
-      saturated += units[i].y;
-      wrong += exact < 65535 ? std::fabs(units[i].x - exact) > 1.001 : units[i].x != 65535;
-    }
-    CHECK(wrong == 0);
-    CHECK(saturated == (exact < 65535 ? 0 : each));
-    // The standard deviation of one is at most 1/2.
-    if (exact < 65535)
-      CHECK(std::fabs(sum / each - exact) < 5 * 0.5 / std::sqrt(each) + 4e-3 * (exact > 32768));
+    check_chi_square(histogram, light_histograms, c.name);
   }
 }

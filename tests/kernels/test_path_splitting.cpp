@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 #include <tuple>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_scene/device_scene.hpp"
 #include "device_scene/params.hpp"
 #include "render/render_fixture.hpp"

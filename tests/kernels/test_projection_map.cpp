@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "chi_square_check.hpp"
 #include "device_fixture.hpp"
 #include "image/luminance.hpp"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 
 using namespace causticl;

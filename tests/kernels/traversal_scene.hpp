@@ -4,8 +4,8 @@
 #include <cstring>
 #include <sstream>
 #include <utility>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "kernels/traversal_kernels.hpp"
 #include "selftest/mesh_set.hpp"

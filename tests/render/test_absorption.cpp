@@ -1,8 +1,8 @@
 // Glass that absorbs, against the closed form.
 #include <cmath>
 #include <numbers>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

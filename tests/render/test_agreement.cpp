@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <set>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "format/load_scene.hpp"
 #include "render_fixture.hpp"
 

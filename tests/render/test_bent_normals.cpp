@@ -1,8 +1,8 @@
 // Photons that plates with bent shading normals scatter: SPPM agrees with path tracing.
 #include <cmath>
 #include <cstdio>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 #include "temporary_folder.hpp"
 

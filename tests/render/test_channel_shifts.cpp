@@ -2,8 +2,8 @@
 #include "device_scene/channel_shifts.hpp"
 
 #include <cstdio>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

@@ -1,7 +1,7 @@
 // When outputs are rewritten, by a clock of the test's own.
 #include <vector>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render/checkpoints.hpp"
 
 using namespace causticl;

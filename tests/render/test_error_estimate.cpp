@@ -1,9 +1,9 @@
 // From the errors of pixels to that of a picture and to what is still to be done.
 #include <cmath>
 #include <random>
-#include "catch2.hpp"
 
 #include "accuracy/error_estimate.hpp"
+#include "catch2.hpp"
 
 using namespace causticl;
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include "catch2.hpp"
 
 #include "app/report.hpp"
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

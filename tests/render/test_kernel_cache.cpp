@@ -2,8 +2,8 @@
 // tests/cli/test_cache_folder.cpp, since PoCL asks where its folder is once in the life of a process.
 #include <cstdlib>
 #include <fstream>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "opencl/kernel_cache.hpp"
 #include "temporary_folder.hpp"

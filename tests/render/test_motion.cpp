@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include "catch2.hpp"
 
 #include "app/report.hpp"
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "device_scene/motion.hpp"
 #include "render_fixture.hpp"

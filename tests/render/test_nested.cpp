@@ -1,7 +1,7 @@
 // Dielectrics that touch, overlap or hold the camera or a lamp, by values that are known.
 #include <cmath>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 #include "scene/dielectrics.hpp"
 

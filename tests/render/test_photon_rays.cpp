@@ -1,7 +1,7 @@
 // Whole pictures with photons through the tree and by brute force: the same to the bit, with the same counts.
 #include <filesystem>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "format/load_scene.hpp"
 #include "render_fixture.hpp"

@@ -1,8 +1,8 @@
 // What the pilot of SPPM decides, and that pictures hold: first radius, emission, and errors that are not
 // known.
 #include <cmath>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "photons/pilot.hpp"
 #include "render/render_fixture.hpp"

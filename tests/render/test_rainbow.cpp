@@ -1,7 +1,7 @@
 // Dispersion as pictures show it.
 #include <cmath>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

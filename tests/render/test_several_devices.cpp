@@ -1,7 +1,7 @@
 // Several devices at one picture: the same device, opened several times.
 #include <memory>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "render_fixture.hpp"
 #include "temporary_folder.hpp"

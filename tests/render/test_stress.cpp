@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <set>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "render_fixture.hpp"
 
 using namespace causticl;

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <string>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "format/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"

@@ -5,8 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "mesh/mesh.hpp"
 
 using namespace causticl;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <random>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "image/flip.hpp"
 #include "temporary_folder.hpp"
 

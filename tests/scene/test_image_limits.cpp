@@ -2,8 +2,8 @@
 #include <stb/stb_image_write.h>
 
 #include <chrono>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "hostile_images.hpp"
 #include "image/image.hpp"
 #include "image/jpeg_markers.hpp"

@@ -1,8 +1,8 @@
 // What PNG, JPEG, TGA and PFM files say beside their pixels.
 #include <cmath>
 #include <cstring>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "image/image_metadata.hpp"
 #include "image_files.hpp"
 #include "scene_folder.hpp"

@@ -1,8 +1,8 @@
 // What all kinds of meshes share: polygons, normals, size, and real files.
 #include <ctime>
 #include <iostream>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "mesh/mesh_polygon.hpp"
 #include "mesh_files.hpp"
 

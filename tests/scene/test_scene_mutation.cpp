@@ -1,8 +1,8 @@
 // Damaged scene files either load or are refused with one line: never a crash, another exception or a hang.
 #include <filesystem>
 #include <random>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "format/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"

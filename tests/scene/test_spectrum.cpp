@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "scene/spectrum.hpp"
 
 using namespace causticl;

@@ -2,8 +2,8 @@
 #include "study/study_analysis.hpp"
 
 #include <random>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "study_fixture.hpp"
 
 using namespace causticl;

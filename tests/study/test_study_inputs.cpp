@@ -1,9 +1,9 @@
 // What tells one study from another: every byte of what it was measured of, and every option that decides it.
 #include <filesystem>
 #include <set>
-#include "catch2.hpp"
 
 #include "base/folder_lock.hpp"
+#include "catch2.hpp"
 #include "format/load_scene.hpp"
 #include "study/study_inputs.hpp"
 #include "temporary_folder.hpp"

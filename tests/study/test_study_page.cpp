@@ -3,9 +3,9 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
+#include "catch2.hpp"
 #include "image/image.hpp"
 #include "study/study_insets.hpp"
 #include "study_fixture.hpp"

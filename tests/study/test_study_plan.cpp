@@ -4,10 +4,10 @@
 
 #include <numeric>
 #include <set>
-#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
 #include "app/options.hpp"
+#include "catch2.hpp"
 #include "study_fixture.hpp"
 
 using namespace causticl;

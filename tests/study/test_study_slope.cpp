@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <map>
 #include <numbers>
-#include "catch2.hpp"
 
 #include "../render/render_fixture.hpp"
+#include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "study/study_analysis.hpp"
 

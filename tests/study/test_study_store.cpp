@@ -2,9 +2,9 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
-#include "catch2.hpp"
 
 #include "../temporary_folder.hpp"
+#include "catch2.hpp"
 #include "study_fixture.hpp"
 
 using namespace causticl;

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "tree/rooms.hpp"
 
 using namespace causticl;

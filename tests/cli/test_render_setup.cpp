@@ -1,0 +1,62 @@
+// From the command line to what is rendered and where it goes.
+#include "app/options.hpp"
+#include "app/render_setup.hpp"
+#include "catch2.hpp"
+
+using namespace causticl;
+
+namespace {
+
+Scene example_scene() {
+  Scene scene;
+  scene.file = "example.json";
+  scene.width = 320;
+  scene.height = 200;
+  scene.camera.up = {0, 2, 0};
+  scene.materials.resize(2);
+  scene.materials[1].kind = MaterialSpec::Kind::glass;
+  scene.materials[1].emission = {0, 3, 0};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("limits of the command line replace the scene's where they apply, and say where they do not") {
+  Scene scene = example_scene();
+  Options options;
+  options.passes = 3;
+  options.photons = 5;
+  options.samples = 9;
+  apply_options(options, scene);
+  CHECK(scene.renderer.passes == 3);
+  CHECK(scene.renderer.photons == 5);
+  CHECK(scene.renderer.samples == 64);
+  REQUIRE(scene.notices.size() == 1);
+  CHECK(scene.notices[0] == "--samples has no effect: it belongs to pt and this render uses sppm");
+}
+
+TEST_CASE("outputs are those of the command line, else the scene's, else named after it") {
+  Scene scene = example_scene();
+  Options options;
+  options.scene = scene.file = "some/where/name.json";
+  CHECK(output_files(options, scene) == std::vector<std::string>{"name.png"});
+  scene.output = "of_scene.exr";
+  CHECK(output_files(options, scene) == std::vector<std::string>{"of_scene.exr"});
+  options.outputs = {"a.png", "b.pfm"};
+  CHECK(output_files(options, scene) == options.outputs);
+}
+
+TEST_CASE("--threads says what it cannot do on a device") {
+  Options options;
+  DeviceInfo info;
+  info.name = "Card";
+  info.type = "gpu";
+  info.compute_units = 4;
+  CHECK(threads_notice(options, info).empty());
+  options.threads = 2;
+  CHECK(threads_notice(options, info) == "--threads has no effect: Card is not a CPU device");
+  info.type = "cpu";
+  CHECK(threads_notice(options, info).empty());
+  options.threads = 5;
+  CHECK(threads_notice(options, info) == "--threads 5: the device has 4 compute units, and all are used");
+}
