@@ -68,7 +68,7 @@ OUTLINE uint kernel_area_probe(const Scene *scene, Hit here, real3 position, rea
   real half_chord = sqrt(fmax(radius2 - dot(place, place), (real)0)), left = 2 * half_chord;
   real3 offset = place.x * tangent + place.y * bitangent;
   NearWalls near;
-  bool walled = HAS(EFFECT_WALLS) && walls_near(scene->walls, position, n, sqrt(radius2), &near);
+  bool walled = HAS(EFFECT_WALLS) && walls_listed(scene->walls, position, n, sqrt(radius2), &near);
   if (kernel_area_goes_on(&scene->geometry, here, offset) && !(walled && walls_between(&near, position + offset, n)))
     return probe | 1u << KERNEL_AREA_SHIFT;
   Ray ray = {position + offset + half_chord * n, -n};

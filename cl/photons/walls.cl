@@ -50,11 +50,15 @@ INLINE real wall_distance(global const Wall *wall, real3 p) {
   if (type == WALL_TRIANGLE)
     for (uint i = 0; i < 3; ++i)
       distance = fmax(distance, wall->edge[i].w - dot(from, convert_real3(wall->edge[i].xyz)));
+  if (type == WALL_PARALLELOGRAM)
+    for (uint i = 0; i < 2; ++i)
+      distance = fmax(distance, fabs(dot(from, convert_real3(wall->edge[i].xyz))) - wall->edge[i].w);
   return distance;
 }
 
-// Finds the walls within `radius` of a visible point. False if there are none.
-INLINE bool walls_near(global const WallGrid *grid, real3 point, real3 normal, real radius, NearWalls *near) {
+// Takes all walls that the cell of a visible point lists, for paths to points within `radius` of it. False if there are
+// none. Enough where few points are asked about: telling which walls are near takes longer.
+INLINE bool walls_listed(global const WallGrid *grid, real3 point, real3 normal, real radius, NearWalls *near) {
   if (!grid || grid->first_wall == 0) return false;
   global const uint *starts = (global const uint *)(grid + 1);
   uint cells = 1 + grid->nx * grid->ny * grid->nz, cell = wall_cell(grid, point);
@@ -65,15 +69,24 @@ INLINE bool walls_near(global const WallGrid *grid, real3 point, real3 normal, r
   near->rounding = (real)WALL_ROUNDING * (max(fabs(point.x), max(fabs(point.y), fabs(point.z))) + radius);
   near->walls = (global const Wall *)((global const float4 *)grid + grid->first_wall);
   near->listed = starts + cells + 1 + begin;
+  near->count = end - begin;
+  near->all = true;
+  return true;
+}
+
+// Finds the walls within `radius` of a visible point. False if there are none.
+INLINE bool walls_near(global const WallGrid *grid, real3 point, real3 normal, real radius, NearWalls *near) {
+  if (!walls_listed(grid, point, normal, radius, near)) return false;
+  uint listed = near->count;
   near->count = 0;
   near->all = false;
   real reach = radius * (real)(1 + WALL_OVER_HEIGHT + WALL_SLACK) + 8 * near->rounding;
-  for (uint i = 0; i < end - begin; ++i) {
+  for (uint i = 0; i < listed; ++i) {
     uint wall = near->listed[i];
     if (!(wall_distance(near->walls + wall, point) <= reach)) continue;
     if (near->count == WALLS_NEAR) {
       near->all = true;
-      near->count = end - begin;
+      near->count = listed;
       break;
     }
     near->near[near->count++] = wall;
@@ -103,6 +116,10 @@ INLINE bool wall_crossed(global const Wall *wall, real3 a, real3 b, real slack) 
   real3 p = from + share * (to - from);
   if (type == WALL_DISK) return length(p) <= wall->normal.w + slack;
   bool inside = true;
+  if (type == WALL_PARALLELOGRAM) {
+    for (uint i = 0; i < 2; ++i) inside = inside && fabs(dot(convert_real3(wall->edge[i].xyz), p)) <= wall->edge[i].w + slack;
+    return inside;
+  }
   for (uint i = 0; i < 3; ++i) inside = inside && dot(convert_real3(wall->edge[i].xyz), p) >= wall->edge[i].w - slack;
   return inside;
 }

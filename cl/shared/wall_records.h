@@ -5,11 +5,14 @@
 #define WALL_PLANE 1u
 #define WALL_DISK 2u
 #define WALL_SPHERE 3u
+#define WALL_PARALLELOGRAM 4u
 
 typedef struct {
-  float4 origin;   // triangle: a corner; plane: a point of it; disk, sphere: the centre; w: WALL_*
+  float4 origin;   // triangle: a corner; plane: a point of it; else the centre; w: WALL_*
   float4 normal;   // unit; w: the radius of a disk or sphere
-  float4 edge[3];  // triangle: the unit vector in its plane from each edge inward; w: that edge's distance from `origin`
+  // Triangle: the unit vector in its plane from each edge inward; w: that edge's distance from `origin`. Parallelogram: in
+  // the first two the unit vectors in its plane across its two pairs of edges; w: their distance from `origin`.
+  float4 edge[3];
 } Wall;
 CHECK_SIZE(Wall, 80);
 

@@ -45,8 +45,8 @@ bool set_triangle(WallPrimitive& primitive, const Vec3 (&corner)[3]) {
   primitive.wall.origin = to_float4(corner[0], WALL_TRIANGLE);
   primitive.wall.normal = to_float4(n);
   Vec3 low = corner[0], high = corner[0];
+  primitive.corners.assign(corner, corner + 3);
   for (int i = 0; i < 3; ++i) {
-    primitive.corner[i] = corner[i];
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], corner[i][axis]);
       high[axis] = std::max(high[axis], corner[i][axis]);
@@ -56,6 +56,36 @@ bool set_triangle(WallPrimitive& primitive, const Vec3 (&corner)[3]) {
   }
   set_bounds(primitive, low, high);
   return true;
+}
+
+/// Makes two triangles that are the halves of a parallelogram one primitive. False if they are not.
+bool join(WallPrimitive& first, const WallPrimitive& second) {
+  constexpr double tolerance = 1e-6;  // of the size: what rounding the corners may change
+  if (type_of(first) != WALL_TRIANGLE || first.blocks != second.blocks || first.receives != second.receives)
+    return false;
+  const std::vector<Vec3>&a = first.corners, &b = second.corners;
+  const double size = length(first.high - first.low);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      // The diagonal is opposite of a[i] and of b[j].
+      const Vec3 p = a[(i + 1) % 3], q = a[(i + 2) % 3];
+      if (!(p == b[(j + 2) % 3] && q == b[(j + 1) % 3])) continue;
+      if (length(p + q - a[i] - b[j]) > tolerance * size) continue;
+      const Vec3 n = to_vec3(first.wall.normal), centre = 0.5 * (p + q);
+      const Vec3 along[2] = {p - a[i], q - a[i]};
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Vec3 across = normalize(cross(n, along[k]));
+        first.wall.edge[k] = to_float4(across, 0.5 * std::fabs(dot(across, along[1 - k])));
+      }
+      first.wall.origin = to_float4(centre, WALL_PARALLELOGRAM);
+      first.corners = {a[i], p, b[j], q};
+      for (int axis = 0; axis < 3; ++axis) {
+        first.low[axis] = std::min(first.low[axis], second.low[axis]);
+        first.high[axis] = std::max(first.high[axis], second.high[axis]);
+      }
+      return true;
+    }
+  return false;
 }
 
 /// The point of a Bezier curve at `t`, by de Casteljau.
@@ -120,9 +150,9 @@ bool set_shape(WallPrimitive& primitive, const Shape& shape) {
   return true;
 }
 
-/// The part of a triangle within the box, as a convex polygon.
-std::vector<Vec3> clipped(const WallPrimitive& triangle, const WallBox& box) {
-  std::vector<Vec3> polygon(triangle.corner, triangle.corner + 3), next;
+/// The part of a triangle or parallelogram within the box, as a convex polygon.
+std::vector<Vec3> clipped(const WallPrimitive& flat, const WallBox& box) {
+  std::vector<Vec3> polygon = flat.corners, next;
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
       const auto outside = [&](Vec3 p) { return sign * (p[axis] - box.centre[axis]) - box.half[axis]; };
@@ -147,7 +177,8 @@ std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& 
     const auto& position = world.tree.triangles[i].position;
     WallPrimitive primitive = primitive_of(scene, world.attributes[i].material & ~TRIANGLE_SMOOTH);
     const auto corner = [&](int c) { return Vec3{position[c][0], position[c][1], position[c][2]}; };
-    if (set_triangle(primitive, {corner(0), corner(1), corner(2)})) primitives.push_back(primitive);
+    if (!set_triangle(primitive, {corner(0), corner(1), corner(2)})) continue;
+    if (primitives.empty() || !join(primitives.back(), primitive)) primitives.push_back(std::move(primitive));
   }
   for (const auto& shape : world.shapes) {
     WallPrimitive primitive = primitive_of(scene, shape.material);
@@ -170,6 +201,12 @@ bool may_reach(const WallPrimitive& primitive, const WallBox& box, double reach)
     for (const float4& edge : primitive.wall.edge) {
       const Vec3 inward = to_vec3(edge);
       if (edge.w - dot(inward, from) > reach + dot(absolute(inward), box.half)) return false;
+    }
+  if (type_of(primitive) == WALL_PARALLELOGRAM)
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 across = to_vec3(primitive.wall.edge[i]);
+      if (std::fabs(dot(across, from)) - primitive.wall.edge[i].w > reach + dot(absolute(across), box.half))
+        return false;
     }
   return true;
 }

@@ -15,13 +15,14 @@ struct WallBox {
 
 struct WallPrimitive {
   Wall wall;
-  Vec3 corner[3];  // of a triangle
-  Vec3 low, high;  // bounds; of a plane infinite
-  bool blocks;     // light does not pass it
-  bool receives;   // photons may be stored on it
+  std::vector<Vec3> corners;  // of a triangle or parallelogram
+  Vec3 low, high;             // bounds; of a plane infinite
+  bool blocks;                // light does not pass it
+  bool receives;              // photons may be stored on it
 };
 
-/// All surfaces but the infinitesimal ones. Revolved curves become triangles, glass parts nothing.
+/// All surfaces but the infinitesimal ones. Revolved curves become triangles, two triangles one after the
+/// other that are the halves of a parallelogram become that; glass parts nothing.
 std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, double time);
 
 /// Whether the primitive may come within `reach` of the box: true too where it is a little farther.

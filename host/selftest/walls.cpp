@@ -67,6 +67,10 @@ bool crosses(const Wall& wall, Vec3 a, Vec3 b, double margin, double touch) {
   const auto inside = [&](Vec3 p) {
     if (static_cast<uint>(wall.origin.w) == WALL_PLANE) return true;
     if (static_cast<uint>(wall.origin.w) == WALL_DISK) return length(p - origin) < wall.normal.w + margin;
+    if (static_cast<uint>(wall.origin.w) == WALL_PARALLELOGRAM)
+      return std::all_of(wall.edge, wall.edge + 2, [&](const float4& edge) {
+        return std::fabs(dot(vec(edge), p - origin)) < edge.w + margin;
+      });
     return std::all_of(std::begin(wall.edge), std::end(wall.edge),
                        [&](const float4& edge) { return dot(vec(edge), p - origin) > edge.w - margin; });
   };
@@ -92,11 +96,16 @@ bool parted(const Pair& in, double margin, double touch) {
 Wall any_wall(InputRandom& random, Vec3 place, double size) {
   Wall wall{};
   const Vec3 n = random.direction();
-  const auto type = random.below(4);
+  const auto type = random.below(5);
   wall.origin = packed(place, type);
   wall.normal = packed(n, size * random.uniform(0.5, 2));
-  if (type != WALL_TRIANGLE) return wall;
+  if (type != WALL_TRIANGLE && type != WALL_PARALLELOGRAM) return wall;
   const Vec3 u = normalize(cross(n, random.direction())), v = cross(n, u);
+  if (type == WALL_PARALLELOGRAM) {
+    wall.edge[0] = packed(u, size * random.uniform(0.5, 2));
+    wall.edge[1] = packed(normalize(v + random.uniform(-1, 1) * u), size * random.uniform(0.5, 2));
+    return wall;
+  }
   const Vec3 corner[3] = {{0, 0, 0}, size * random.uniform(0.5, 2) * u, size * random.uniform(0.5, 2) * v};
   for (int i = 0; i < 3; ++i) {
     const Vec3 inward = normalize(cross(n, corner[(i + 1) % 3] - corner[i]));

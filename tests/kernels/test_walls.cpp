@@ -4,7 +4,9 @@
 
 #include "device_scene/wall_primitives.hpp"
 #include "device_scene/walls.hpp"
+#include "format/load_scene.hpp"
 #include "render/render_fixture.hpp"
+#include "temporary_folder.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
@@ -74,6 +76,9 @@ bool on_surface(Vec3 point, const std::vector<WallPrimitive>& primitives) {
     if (wall.origin.w == WALL_SPHERE) return std::fabs(length(from) - wall.normal.w) < tolerance;
     if (!(std::fabs(dot(from, to_vec3(wall.normal))) < tolerance)) return false;
     if (wall.origin.w == WALL_PLANE) return true;
+    if (wall.origin.w == WALL_PARALLELOGRAM)
+      return std::all_of(wall.edge, wall.edge + 2,
+                         [&](const float4& edge) { return std::fabs(dot(to_vec3(edge), from)) < edge.w; });
     return std::all_of(std::begin(wall.edge), std::end(wall.edge),
                        [&](const float4& edge) { return dot(to_vec3(edge), from) > edge.w; });
   });
@@ -90,7 +95,7 @@ Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primi
     return {{wall + random.uniform(-radius, radius), 0, random.uniform(-2.5, 2.5)}, {0, 1, 0}};
   }
   // The profile's triangles come last, and are many.
-  constexpr double most = 36;
+  constexpr double most = 18;
   const double end = random.uniform() < 0.8 ? most : static_cast<double>(primitives.size());
   const auto& p = primitives[static_cast<std::size_t>(random.uniform(0, 0.9999999) * end)];
   const Vec3 origin = to_vec3(p.wall.origin);
@@ -100,7 +105,10 @@ Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primi
     point = origin + p.wall.normal.w * n;
   } else if (p.wall.origin.w == WALL_TRIANGLE) {
     const double a = std::sqrt(random.uniform()), b = random.uniform();
-    point = (1 - a) * p.corner[0] + a * (1 - b) * p.corner[1] + a * b * p.corner[2];
+    point = (1 - a) * p.corners[0] + a * (1 - b) * p.corners[1] + a * b * p.corners[2];
+  } else if (p.wall.origin.w == WALL_PARALLELOGRAM) {
+    const double a = random.uniform(), b = random.uniform();
+    point = p.corners[0] + a * (p.corners[1] - p.corners[0]) + b * (p.corners[3] - p.corners[0]);
   } else {
     const Vec3 u{random.uniform(-4, 4), random.uniform(0, 3), random.uniform(-3, 3)};
     point = u - dot(n, u - origin) * n;
@@ -157,6 +165,35 @@ TEST_CASE("the walls that a cell lists part what all surfaces part") {
     CHECK(invented == 0);
     CHECK(missed <= parted / 300);  // surface that ends less than a thousandth of the radius behind another
   }
+}
+
+TEST_CASE("the halves of a parallelogram are one wall, other pairs of triangles two") {
+  const auto walls_of = [](const char* points) {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", std::string(points) + "f 1 2 3\nf 1 3 4\n");
+    const Scene scene = load_scene(folder.write("scene.json", R"({
+      "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
+      "objects": [{"type": "mesh", "path": "mesh.obj", "material": {"type": "diffuse"}}]})"));
+    return wall_primitives(scene, flatten_scene(scene), 0);
+  };
+  const auto leaning = walls_of("v 0 0 0\nv 2 0 1\nv 3 1 1\nv 1 1 0\n");
+  REQUIRE(leaning.size() == 1);
+  CHECK(leaning[0].wall.origin.w == WALL_PARALLELOGRAM);
+  CHECK(to_vec3(leaning[0].wall.origin) == Vec3{1.5, 0.5, 0.5});
+  // The points within by its edges are those within by its corners.
+  RandomInputs random(773);
+  const Vec3 u{2, 0, 1}, v{1, 1, 0};
+  for (int i = 0; i < 1000; ++i) {
+    const double a = random.uniform(-0.5, 1.5), b = random.uniform(-0.5, 1.5);
+    const Vec3 from = a * u + b * v - to_vec3(leaning[0].wall.origin);
+    CHECK(std::fabs(dot(from, to_vec3(leaning[0].wall.normal))) < 1e-6);
+    const bool within = std::all_of(leaning[0].wall.edge, leaning[0].wall.edge + 2, [&](const float4& edge) {
+      return std::fabs(dot(to_vec3(edge), from)) < edge.w;
+    });
+    CHECK(within == (a > 0 && a < 1 && b > 0 && b < 1));
+  }
+  CHECK(walls_of("v 0 0 0\nv 2 0 1\nv 3 1 1\nv 1 1 0.001\n").size() == 2);  // folded
+  CHECK(walls_of("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0.001 1 0\n").size() == 2);  // a trapezoid
 }
 
 TEST_CASE("what has surface on one side alone is no wall") {
