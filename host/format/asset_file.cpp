@@ -31,7 +31,7 @@ std::string asset_fault(const std::filesystem::path& file) {
   struct stat status {};
   // Opening some devices has effects: their kind is asked for first, and again of what was opened.
   if (stat(file.c_str(), &status) != 0) return "";
-  if (const std::string fault = fault_of_mode(status.st_mode); !fault.empty()) return fault;
+  if (std::string fault = fault_of_mode(status.st_mode); !fault.empty()) return fault;
   const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0) return "";  // whoever reads it says why that fails
   std::string fault;

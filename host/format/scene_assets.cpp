@@ -31,7 +31,7 @@ std::string find_asset(const JsonReader& json, const std::string& scene_file) {
 
 // The same, noted in the scene.
 std::string resolve(const JsonReader& json, Scene& scene) {
-  const std::string file = find_asset(json, scene.file);
+  std::string file = find_asset(json, scene.file);
   if (std::find(scene.assets.begin(), scene.assets.end(), file) == scene.assets.end())
     scene.assets.push_back(file);
   return file;

@@ -58,7 +58,7 @@ bool is_picture(const fs::path& file) {
 }  // namespace
 
 std::string read_output(const JsonReader& json) {
-  const std::string path = json.string();
+  std::string path = json.string();
   if (path.empty()) return path;
   if (has_control_characters(path)) json.fail_expected("the name of a picture without control characters");
   const std::string name = fs::path(path).filename().string();

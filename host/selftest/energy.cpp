@@ -153,7 +153,8 @@ CheckResult environment_furnace(CheckContext& context) {
   white.a = white.b = {1, 1, 1};
   scene.textures = {white};
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const double column = static_cast<double>(i % 3), row = static_cast<double>(i / 3);
+    const std::size_t across = i % 3, down = i / 3;
+    const auto column = static_cast<double>(across), row = static_cast<double>(down);
     scene.objects.push_back(
         make_sphere({1.05 * (column - 1), 1.05 * (row - 1), 0}, 0.5, static_cast<int>(i)));
     scene.materials.push_back(materials[i].spec);

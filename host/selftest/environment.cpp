@@ -122,7 +122,8 @@ CheckResult directions(CheckContext& context) {
   Histogram histogram(sky.bins.count());
   for (int row = 0; row < Sky::height; ++row)
     for (int column = 0; column < Sky::width; ++column)
-      histogram.probabilities[static_cast<std::size_t>(row * Sky::width + column)] = sky.share(column, row);
+      histogram.probabilities[static_cast<std::size_t>(row) * Sky::width + static_cast<std::size_t>(column)] =
+          sky.share(column, row);
   SampleKernel<Drawn> draw(context, program(context), "draw_at_random", sky);
   return run_histogram_check(context, {histogram}, draw,
                              [&](const Drawn& drawn, std::uint64_t, std::vector<Histogram>& to) {

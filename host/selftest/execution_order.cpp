@@ -93,7 +93,7 @@ Scene small_scene(std::uint64_t photons) {
   scene.camera.origin = {0, 1, 6};
   scene.camera.right = {1, 0, 0};
   scene.camera.up = {0, 0.75, 0};
-  const auto ball = [&](Vec3 center, double radius, MaterialSpec material) {
+  const auto ball = [&](Vec3 center, double radius, const MaterialSpec& material) {
     Object object;
     object.radius = radius;
     object.transform = Transform::shift(center);

@@ -36,7 +36,8 @@ std::vector<TriangleMesh> duplicates() {
 std::vector<TriangleMesh> stacked_boxes() {
   TriangleMesh mesh;
   for (int i = 0; i < 27; ++i) {
-    const Vec3 low{0.25 * (i % 3), 0.25 * (i / 3 % 3), 0.25 * (i / 9)};
+    const int x = i % 3, y = i / 3 % 3, z = i / 9;
+    const Vec3 low{0.25 * x, 0.25 * y, 0.25 * z};
     for (const auto& triangle : box_mesh(low, low + Vec3{0.25, 0.25, 0.25})) mesh.push_back(triangle);
   }
   return {mesh};
