@@ -38,7 +38,9 @@ done
 [ ${#chosen[@]} -gt 0 ] || chosen=("${all[@]}")
 
 set_up "${build_packages[@]}" "${fuzz_packages[@]}"
-build build-fuzz fuzzers -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++ -DCAUSTICL_FUZZ=ON
+# Assertions, and some optimisation: twice the executions a second and more.
+build build-fuzz fuzzers -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g" -DCMAKE_CXX_COMPILER=clang++ \
+  -DCAUSTICL_FUZZ=ON
 
 work=$root/build-fuzz
 mkdir -p "$work/findings" "$work/logs"
