@@ -97,6 +97,11 @@ void Programs::build(Build& build) {
   device_.store_compiled();
 }
 
+bool Programs::first_is_built_within(double seconds) const {
+  return builds_.empty() || builds_.front().program.wait_for(std::chrono::duration<double>(seconds)) ==
+                                std::future_status::ready;
+}
+
 cl::Kernel Programs::kernel(const std::string& pass, const char* name) {
   const auto found =
       std::find_if(builds_.begin(), builds_.end(), [&](const Build& build) { return build.pass == pass; });

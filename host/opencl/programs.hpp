@@ -31,6 +31,9 @@ class Programs {
 
   const KernelOptions& options() const { return options_; }
 
+  /// Waits until the first program is built, or `seconds` are over; says whether it is.
+  bool first_is_built_within(double seconds) const;
+
   /// Waits until the program is built. Throws what building it threw.
   cl::Kernel kernel(const std::string& pass, const char* name);
 

@@ -102,6 +102,10 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
   }
 }
 
+/// Seconds without a sign of life before the user is told what goes on. Nothing is lost by the wait: without
+/// kernels there is nothing else to do.
+constexpr double patience = 1.5;
+
 /// The picture of a scene without light, by no pass at all.
 RenderResult black_picture(const Scene& scene, const RenderOptions& options, const Statistics& statistics) {
   RenderResult result{{scene.width, scene.height, {}}, statistics, {}};
@@ -152,6 +156,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels,
                                                    RayChoice{options.camera_rays, options.photon_rays},
                                                    passes_to_run(plan), options.threads));
+  if (notice && !parts.front()->programs.first_is_built_within(patience))
+    notice("compiling kernels, once for each device and combination of effects");
   const bool with_photons = sppm && why_skipped(plan, "photon").empty();
   if (const auto pilot = start_integrators(parts, scene, options.seed, with_photons, notice)) {
     statistics.first_radius = pilot->first_radius;
