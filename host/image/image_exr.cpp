@@ -137,7 +137,7 @@ void decode_channels(Imf::InputFile& file, const ExrChannels& channels, std::vec
 
 bool are_srgb_primaries(const Imf::Chromaticities& file) {
   const Imf::Chromaticities srgb;  // those of Rec. ITU-R BT.709, which sRGB shares
-  const auto near = [](Imath::V2f a, Imath::V2f b) { return (a - b).length() < 0.003f; };
+  const auto near = [](const Imath::V2f& a, const Imath::V2f& b) { return (a - b).length() < 0.003f; };
   return near(file.red, srgb.red) && near(file.green, srgb.green) && near(file.blue, srgb.blue) &&
          near(file.white, srgb.white);
 }

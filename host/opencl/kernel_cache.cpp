@@ -23,7 +23,7 @@ fs::path cache_folder() {
     const char* value = std::getenv(name);
     return fs::path(value ? value : "");
   };
-  if (const fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return own;
+  if (fs::path own = variable("CAUSTICL_CACHE_DIR"); !own.empty()) return own;
   // The XDG specification has relative paths ignored.
   if (const fs::path shared = variable("XDG_CACHE_HOME"); shared.is_absolute()) return shared / "causticl";
   if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache" / "causticl";
