@@ -4,7 +4,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
 build_packages=(g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers
   pocl-opencl-icd nlohmann-json3-dev libstb-dev libopenexr-dev libxxhash-dev libcli11-dev)
-test_packages=(catch2 clang-format python3 python3-jsonschema)
+test_packages=(catch2 clang-format python3-jsonschema)
 lint_packages=(clang-tidy)
 fuzz_packages=(clang libclang-rt-dev llvm)
 bench_packages=(libembree-dev)

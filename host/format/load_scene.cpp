@@ -73,8 +73,12 @@ void refuse_infinite_light(const SceneObject& json, const Scene& scene) {
 void warn_without_light(const SceneObject& json, SceneLoader& loader) {
   std::string flat;
   for (const Object& object : loader.scene.objects)
-    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object))
-      flat = flat.empty() ? object.pointer : flat.ends_with(" and others") ? flat : flat + " and others";
+    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object)) {
+      if (flat.empty())
+        flat = object.pointer;
+      else if (!flat.ends_with(" and others"))
+        flat += " and others";
+    }
   if (!flat.empty()) flat += " should emit light, but without an area gives none";
   if (!has_light(loader.scene))
     loader.notice(json, "no light: the image will be black" + (flat.empty() ? "" : "; " + flat));

@@ -114,6 +114,7 @@ SceneObject SceneValue::object() const {
   if (!is(JsonValue::Kind::object)) fail_expected("an object");
   if (tables.size() == 1) return {json_, tables[0]()};
   std::vector<std::string> words;
+  words.reserve(tables.size());
   for (const TableFunction table : tables) words.push_back(table().type);
   const std::size_t index = json_.at("type").choice(words);
   return {json_, tables[index](), index};

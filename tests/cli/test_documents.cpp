@@ -43,8 +43,8 @@ std::vector<std::string> blocks(const std::string& text, const std::string& kind
   return result;
 }
 
-/// An example of the scene format as a whole scene. It is one already, or objects, or a key: of a scene, an object or
-/// a material.
+/// An example of the scene format as a whole scene. It is one already, or objects, or a key: of a scene, an
+/// object or a material.
 nlohmann::ordered_json whole_scene(const std::string& example) {
   auto scene = parse_scene(R"({"camera": {"position": [0, 1, 5], "target": [0, 0, 0], "fov": 40}})");
   if (example[0] == '"') {

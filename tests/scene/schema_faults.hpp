@@ -21,15 +21,33 @@ inline std::vector<Json> numbers_outside(const NumberRange& range) {
   return values;
 }
 
-/// A value for an item of a list.
-inline Json item_of(const ValueType& type) {
-  if (type.kind == ValueType::Kind::object)
-    return parse_scene(table_examples().at(type.tables[0]().name).object);
-  if (type.kind != ValueType::Kind::list) return number_within(type.range);
-  Json list = Json::array();
-  for (std::size_t i = 0; i < type.least; ++i)
-    list.push_back(item_of(type.parts[type.parts.size() > 1 ? i : 0]));
-  return list;
+/// A value that a type accepts.
+inline Json good_value(const ValueType& type) {
+  using Kind = ValueType::Kind;
+  switch (type.kind) {
+    case Kind::boolean:
+      return true;
+    case Kind::string:
+      return "5x4.png";
+    case Kind::choice:
+      return type.words[0];
+    case Kind::vector:
+      return Json::array({number_within(type.range), number_within(type.range), number_within(type.range)});
+    case Kind::list: {
+      Json list = Json::array();
+      for (std::size_t i = 0; i < type.least; ++i)
+        list.push_back(good_value(type.parts[type.parts.size() > 1 ? i : 0]));
+      return list;
+    }
+    case Kind::object:
+      return parse_scene(table_examples().at(type.tables[0]().name).object);
+    case Kind::map:
+      return Json::object();
+    case Kind::either:
+      return good_value(type.parts[0]);
+    default:
+      return number_within(type.range);
+  }
 }
 
 std::vector<Json> faults_of(const ValueType& type);
@@ -54,14 +72,14 @@ inline std::vector<Json> vector_faults(const NumberRange& range) {
 /// One item too few, one too many, and every fault of an item.
 inline std::vector<Json> list_faults(const ValueType& type) {
   std::vector<Json> faults{1, "list", Json::object()};
-  const Json list = item_of(type);
+  const Json list = good_value(type);
   if (type.least > 0) {
     faults.push_back(list);
     faults.back().erase(0);
   }
   if (type.most < SIZE_MAX) {
     Json longer = list;
-    while (longer.size() <= type.most) longer.push_back(item_of(type.parts[0]));
+    while (longer.size() <= type.most) longer.push_back(good_value(type.parts[0]));
     faults.push_back(longer);
   }
   for (std::size_t i = 0; i < type.parts.size(); ++i)

@@ -85,8 +85,18 @@ TEST_CASE("the reader and the schema refuse every fault of every key") {
         }
       if (!key.alias) continue;
       object = room;
-      object[key.name] = object[key.alias] = 1;
+      object[key.name] = object[key.alias] = good_value(key.type);
       add(object, key.alias);
+    }
+    for (const KeyRule& rule : table->rules) {
+      object = parse_scene(text);
+      object[rule.first] = good_value(table->row(rule.first).type);
+      object[rule.second] = good_value(table->row(rule.second).type);
+      if (rule.relation == KeyRule::Relation::needs) object.erase(rule.second);
+      cases.add(folder, scene_with(pointer, object), pointer);
+      object.erase(rule.first);
+      object.erase(rule.second);
+      if (rule.relation == KeyRule::Relation::one_of) cases.add(folder, scene_with(pointer, object), pointer);
     }
   }
   // Null is a fault of every key: a key that the reader never asked for would load with it.
