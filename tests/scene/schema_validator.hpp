@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "format/scene_schema.hpp"
 #include "temporary_folder.hpp"
 

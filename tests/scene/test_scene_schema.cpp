@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "cli/bad_scenes.hpp"
 #include "scene_folder.hpp"
 #include "schema_examples.hpp"

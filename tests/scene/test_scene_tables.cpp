@@ -1,8 +1,8 @@
 // The tables of the scene format: the reader asks for each of their keys and for no other, and the JSON
 // Schema that is made from them refuses what the reader refuses.
 #include <stdexcept>
-#include "catch2.hpp"
 
+#include "catch2.hpp"
 #include "format/scene_value.hpp"
 #include "scene_folder.hpp"
 #include "schema_faults.hpp"
