@@ -17,6 +17,7 @@
 #include "device_scene/channel_shifts.hpp"
 #include "format/load_scene.hpp"
 #include "format/scene_output.hpp"
+#include "format/scene_schema.hpp"
 #include "render/explain.hpp"
 #include "selftest/selftest_processes.hpp"
 #include "selftest/stability_checks.hpp"
@@ -194,6 +195,8 @@ int run(const Options& options) {
       return explain(options);
     case Options::Command::info:
       return print(scene_summary(load_scene(options.scene, options.scene_options)));
+    case Options::Command::schema:
+      return print(scene_schema());
     case Options::Command::compare:
       return compare(options);
     case Options::Command::study:

@@ -4,7 +4,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
 build_packages=(g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers
   pocl-opencl-icd nlohmann-json3-dev libstb-dev libopenexr-dev libxxhash-dev libcli11-dev)
-test_packages=(catch2 clang-format)
+test_packages=(catch2 clang-format python3-jsonschema)
 lint_packages=(clang-tidy)
 fuzz_packages=(clang libclang-rt-dev llvm)
 bench_packages=(libembree-dev)
@@ -53,7 +53,7 @@ set_up_elsewhere() {
   done
   [ ${#missing[@]} -eq 0 ] || fail "not found: ${missing[*]}. This is no Debian system, so please install by its own means
   a C++20 compiler, CMake 3.18, Ninja, pkg-config, an OpenCL ICD loader with C and C++ headers (CLHPP) and a
-  driver such as PoCL, nlohmann-json 3.10, stb, OpenEXR 3, CLI11, xxHash 0.8; for the tests also Catch2 2.13."
+  driver such as PoCL, nlohmann-json 3.10, stb, OpenEXR 3, CLI11, xxHash 0.8; for the tests also Catch2 2.13 and Python 3 with jsonschema."
 }
 
 # build FOLDER TARGET [CMAKE_OPTION...]: configures where needed and builds; says nothing where all is done.

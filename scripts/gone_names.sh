@@ -60,7 +60,7 @@ causticl=${1:-$root/build/causticl}
 help=$(mktemp)
 trap 'rm -f "$help"' EXIT
 if [ -x "$causticl" ]; then
-  for command in '' render compare devices explain info study selftest; do
+  for command in '' render compare devices explain info schema study selftest; do
     "$causticl" ${command:+"$command"} --help >"$help"
     code=0
     grep -nwF -f <(printf '%s\n' "$pattern") "$help" || code=$?

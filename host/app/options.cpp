@@ -209,6 +209,10 @@ Options parse_options(int argc, const char* const* argv) {
   selftest.footer(
       "The first thing to run when a picture looks wrong. Exit codes: 0 all checks passed, 2 the command\n"
       "line is at fault, 3 a check failed.");
+  CLI::App& schema = *app.add_subcommand("schema", "Print the JSON Schema of scene files, for editors");
+  schema.footer(
+      "An editor that knows the schema completes keys and marks mistakes while you write. In a scene,\n"
+      "\"$schema\": \"scene.schema.json\" names the file that holds it.");
 
   try {
     app.parse(argc, argv);
@@ -225,6 +229,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.command = render.parsed()    ? Options::Command::render
                     : devices.parsed() ? Options::Command::devices
                     : info.parsed()    ? Options::Command::info
+                    : schema.parsed()  ? Options::Command::schema
                     : explain.parsed() ? Options::Command::explain
                     : compare.parsed() ? Options::Command::compare
                     : study.parsed()   ? Options::Command::study

@@ -16,7 +16,7 @@
 namespace causticl {
 
 struct Options {
-  enum class Command { render, compare, devices, explain, info, study, selftest, print };
+  enum class Command { render, compare, devices, explain, info, schema, study, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 

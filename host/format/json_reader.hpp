@@ -17,6 +17,10 @@ struct NumberRange {
   double low, high;
   const char* expected;
   bool exclusive = false;  // low and high themselves are outside
+  const char* nonzero =
+      nullptr;  // where 0 and what is nearer to it than `gap` are outside: how an error says so
+  double gap = 0;
+  const char* hint = "";  // what an error adds: of `nonzero` where that is given, else of `expected`
 };
 
 // Coordinates and sizes stay where their squares and cubes fit a float.
@@ -40,9 +44,9 @@ class JsonReader {
   /// "scene.json:12: /objects/3".
   std::string place() const;
 
-  /// Objects: refuses keys other than `keys`, suggesting the nearest, and those of `later`, which exist in
-  /// the format but not in this program. Throws if the value is not an object.
-  void check_keys(const std::vector<std::string>& keys, const std::vector<std::string>& later = {}) const;
+  /// Objects: refuses keys other than `keys`, suggesting the nearest, and `unlisted`, which it does not
+  /// suggest. Throws if the value is not an object.
+  void check_keys(const std::vector<std::string>& keys, const std::vector<std::string>& unlisted = {}) const;
   bool has(const std::string& key) const { return value_->member(key) != nullptr; }
   /// The value of a key. Where it is absent, every getter of the result throws that the key is required.
   JsonReader at(const std::string& key) const;
@@ -58,14 +62,8 @@ class JsonReader {
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
   std::string string() const;
-  /// One of `names`: its index. `later` as in check_keys.
-  std::size_t choice(const std::vector<std::string>& names, const std::vector<std::string>& later = {}) const;
-
-  /// The same for a key that may be absent.
-  double number(const std::string& key, double absent, const NumberRange& range = any_number) const;
-  std::int64_t integer(const std::string& key, std::int64_t absent, std::int64_t low,
-                       std::int64_t high) const;
-  bool boolean(const std::string& key, bool absent) const;
+  /// One of `names`: its index.
+  std::size_t choice(const std::vector<std::string>& names) const;
 
   /// Throws UserError "PLACE: expected EXPECTED, got WHAT IS HERE; HINT".
   [[noreturn]] void fail_expected(const std::string& expected, const std::string& hint = "") const;

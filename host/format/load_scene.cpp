@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "format/scene_keys.hpp"
 #include "format/scene_loader.hpp"
 #include "format/scene_output.hpp"
 #include "scene/flush_emitters.hpp"
@@ -11,61 +12,54 @@
 namespace causticl {
 namespace {
 
-constexpr std::int64_t pixel_limit = std::int64_t{1} << 28;
 constexpr std::int64_t visible_point_limit = std::int64_t{1} << 31;
 
-const std::vector<std::string> scene_keys{"path",     "width",     "height",     "sample",     "max_depth",
-                                          "Na",       "Ng",        "thread_num", "stack_size", "camera",
-                                          "renderer", "materials", "objects",    "lights",     "medium"};
-
-void read_size(const JsonReader& json, const SceneOptions& options, Scene& scene) {
-  scene.width = static_cast<int>(json.integer("width", scene.width, 1, pixel_limit));
-  scene.height = static_cast<int>(json.integer("height", scene.height, 1, pixel_limit));
+void read_size(const SceneObject& json, const SceneOptions& options, Scene& scene) {
+  scene.width = json.integer("width");
+  scene.height = json.integer("height");
   const std::string limit = "expected at most 2^28 pixels, got ";
   if (options.size) {
     std::tie(scene.width, scene.height) = *options.size;
     const std::string size = std::to_string(scene.width) + "x" + std::to_string(scene.height);
     if (scene.width < 1 || scene.height < 1)
       throw UserError("--size " + size + ": expected a width and a height of at least 1, got " + size);
-    if (std::int64_t{scene.width} * scene.height > pixel_limit)
+    if (std::int64_t{scene.width} * scene.height > most_pixels)
       throw UserError("--size " + size + ": " + limit + size);
-  } else if (std::int64_t{scene.width} * scene.height > pixel_limit) {
+  } else if (std::int64_t{scene.width} * scene.height > most_pixels) {
     (json.has("height") ? json.at("height") : json.at("width"))
         .fail(limit + std::to_string(scene.width) + "x" + std::to_string(scene.height));
   }
 }
 
 // The first cg_tracing files have no `renderer` but `sample` at the top: they are path traced.
-void read_integrator(const JsonReader& json, const SceneOptions& options, SceneLoader& loader) {
+void read_integrator(const SceneObject& json, const SceneOptions& options, SceneLoader& loader) {
   RendererSpec& renderer = loader.scene.renderer;
-  const auto settings = json.find("renderer");
   if (const auto sample = json.find("sample")) {
-    if (settings) sample->fail("expected \"sample\" inside \"renderer\", got it beside");
     renderer.integrator = Integrator::pt;
-    renderer.samples = static_cast<int>(sample->integer(1, 1 << 30));
+    renderer.samples = static_cast<int>(sample->integer());
   }
-  if (settings) read_renderer(*settings, loader);
+  const auto settings = json.find("renderer");
+  if (settings) read_renderer(settings->object(), loader);
   if (options.integrator) renderer.integrator = *options.integrator;
   const Scene& scene = loader.scene;
   if (renderer.integrator == Integrator::sppm &&
       std::int64_t{scene.width} * scene.height * renderer.visible_points > visible_point_limit)
-    (settings ? *settings : json)
+    (settings ? SceneNode(*settings) : SceneNode(json))
         .fail("expected at most 2^31 visible points in a pass, got " + std::to_string(scene.width) + "x" +
               std::to_string(scene.height) + " pixels with " + std::to_string(renderer.visible_points));
 }
 
-MediumSpec read_medium(const JsonReader& json) {
-  json.check_keys({"absorption", "scattering", "g"});
+MediumSpec read_medium(const SceneObject& json) {
   MediumSpec medium;
-  medium.absorption = read_color(json, "absorption", {}, non_negative_number);
-  medium.scattering = read_color(json, "scattering", {}, non_negative_number);
-  medium.g = json.number("g", 0, {-0.99, 0.99, "a mean cosine from -0.99 to 0.99"});
+  medium.absorption = json.color("absorption");
+  medium.scattering = json.color("scattering");
+  medium.g = json.number("g");
   return medium;
 }
 
 // Through a medium without end nothing is left of light from infinitely far, while its photons start near the
 // scene.
-void refuse_infinite_light(const JsonReader& json, const Scene& scene) {
+void refuse_infinite_light(const SceneObject& json, const Scene& scene) {
   if (!(max_component(scene.medium.absorption + scene.medium.scattering) > 0)) return;
   const bool directional = std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
     return light.kind == DeltaLight::Kind::directional;
@@ -76,11 +70,15 @@ void refuse_infinite_light(const JsonReader& json, const Scene& scene) {
         "from infinitely far, got one; use a large disk or a point light");
 }
 
-void warn_without_light(const JsonReader& json, SceneLoader& loader) {
+void warn_without_light(const SceneObject& json, SceneLoader& loader) {
   std::string flat;
   for (const Object& object : loader.scene.objects)
-    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object))
-      flat = flat.empty() ? object.pointer : flat.ends_with(" and others") ? flat : flat + " and others";
+    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object)) {
+      if (flat.empty())
+        flat = object.pointer;
+      else if (!flat.ends_with(" and others"))
+        flat += " and others";
+    }
   if (!flat.empty()) flat += " should emit light, but without an area gives none";
   if (!has_light(loader.scene))
     loader.notice(json, "no light: the image will be black" + (flat.empty() ? "" : "; " + flat));
@@ -93,30 +91,29 @@ void warn_without_light(const JsonReader& json, SceneLoader& loader) {
 Scene load_scene(const std::string& file, const SceneOptions& options) {
   JsonDocument document = json_read(file);
   for (const auto& [key, value] : options.overrides) json_override(document, key, value);
-  const JsonReader json(document);
-  json.check_keys(scene_keys);
+  const SceneObject json(JsonReader(document), scene_keys());
 
   SceneLoader loader;
   loader.image_limits = options.image_limits;
   Scene& scene = loader.scene;
   scene.file = file;
+  if (const auto schema = json.find("$schema")) schema->string();
   if (const auto path = json.find("path")) scene.output = read_output(*path);
   read_size(json, options, scene);
-  scene.max_depth = static_cast<int>(json.integer("max_depth", scene.max_depth, 1, 100000));
-  scene.outside_ior = json.number("Na", scene.outside_ior, refractive_index);
-  loader.glass_ior = json.number("Ng", loader.glass_ior, refractive_index);
+  scene.max_depth = json.integer("max_depth");
+  scene.outside_ior = json.number("Na");
+  loader.glass_ior = json.number("Ng");
   for (const char* key : {"thread_num", "stack_size"})
     if (const auto ignored = json.find(key)) {
-      ignored->integer(0, std::int64_t{1} << 53);
+      ignored->integer();
       loader.notice(*ignored, "\"thread_num\" and \"stack_size\" are ignored: the device schedules itself");
     }
   read_integrator(json, options, loader);
   scene.camera = read_camera(json.at("camera"), static_cast<double>(scene.width) / scene.height);
-  if (const auto medium = json.find("medium")) scene.medium = read_medium(*medium);
+  if (const auto medium = json.find("medium")) scene.medium = read_medium(medium->object());
   if (const auto materials = json.find("materials")) read_named_materials(*materials, loader);
-  for (const JsonReader& object : json.at("objects").items(1, SIZE_MAX, "object"))
-    read_object(object, loader);
-  if (const auto renderer = json.find("renderer")) read_disc_light(*renderer, loader);
+  for (const SceneValue& object : json.at("objects").items()) read_object(object, loader);
+  if (const auto renderer = json.find("renderer")) read_disc_light(renderer->object(), loader);
   if (const auto lights = json.find("lights")) read_lights(*lights, loader);
   refuse_infinite_light(json, scene);
   warn_without_light(json, loader);

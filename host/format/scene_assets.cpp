@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Beside the scene file first, so that a scene moves with its assets; then in the working directory.
-std::string find_asset(const JsonReader& json, const std::string& scene_file) {
+std::string find_asset(const SceneValue& json, const std::string& scene_file) {
   const std::string path = json.string();
   if (path.empty() || path.find('\0') != std::string::npos) json.fail_expected("the path of a file");
   std::error_code status;
@@ -30,7 +30,7 @@ std::string find_asset(const JsonReader& json, const std::string& scene_file) {
 }
 
 // The same, noted in the scene.
-std::string resolve(const JsonReader& json, Scene& scene) {
+std::string resolve(const SceneValue& json, Scene& scene) {
   std::string file = find_asset(json, scene.file);
   if (std::find(scene.assets.begin(), scene.assets.end(), file) == scene.assets.end())
     scene.assets.push_back(file);
@@ -40,7 +40,7 @@ std::string resolve(const JsonReader& json, Scene& scene) {
 // The index of `file` in `list`, read by `read` at the first mention; its error gets the place of the
 // mention.
 template <typename Key, typename Item, typename Read>
-int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list, const JsonReader& json,
+int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list, const SceneNode& json,
               Read read) {
   const auto [entry, is_new] = known.try_emplace(key, static_cast<int>(list.size()));
   if (!is_new) return entry->second;
@@ -54,7 +54,7 @@ int load_once(std::map<Key, int>& known, const Key& key, std::vector<Item>& list
 
 }  // namespace
 
-int SceneLoader::image(const JsonReader& json, bool srgb) {
+int SceneLoader::image(const SceneValue& json, bool srgb) {
   const std::string file = resolve(json, scene);
   return load_once(images, {file, srgb}, scene.images, json, [&] {
     Image image = read_image(file, srgb, image_limits);
@@ -71,7 +71,7 @@ int SceneLoader::image(const JsonReader& json, bool srgb) {
   });
 }
 
-Image SceneLoader::radiance_map(const JsonReader& json) {
+Image SceneLoader::radiance_map(const SceneValue& json) {
   const std::string file = resolve(json, scene);
   Image image;
   try {
@@ -97,7 +97,7 @@ Image SceneLoader::radiance_map(const JsonReader& json) {
   return image;
 }
 
-int SceneLoader::mesh(const JsonReader& json) {
+int SceneLoader::mesh(const SceneValue& json) {
   const std::string file = resolve(json, scene);
   return load_once(meshes, file, scene.meshes, json, [&] {
     Mesh mesh = read_mesh(file);
@@ -106,7 +106,7 @@ int SceneLoader::mesh(const JsonReader& json) {
   });
 }
 
-int SceneLoader::mesh_of_glass(const JsonReader& object, int mesh) {
+int SceneLoader::mesh_of_glass(const SceneNode& object, int mesh) {
   const auto [entry, is_new] = turned_meshes.try_emplace(mesh, mesh);
   if (!is_new) return entry->second;
   auto turned = turned_outwards(scene.meshes[static_cast<std::size_t>(mesh)]);
@@ -118,12 +118,12 @@ int SceneLoader::mesh_of_glass(const JsonReader& object, int mesh) {
   return entry->second;
 }
 
-void SceneLoader::file_notes(const JsonReader& where, const std::string& file,
+void SceneLoader::file_notes(const SceneNode& where, const std::string& file,
                              const std::vector<std::string>& notes) {
   for (const std::string& note : notes) notice(where, file + ": " + note);
 }
 
-void SceneLoader::notice(const JsonReader& where, const std::string& text) {
+void SceneLoader::notice(const SceneNode& where, const std::string& text) {
   if (said.insert(text).second) scene.notices.push_back(one_line(where.place() + ": " + text));
 }
 

@@ -9,31 +9,6 @@ namespace {
 
 using Shape = Object::Shape;
 
-const std::vector<std::string> type_names{"sphere", "plane", "rectangle",    "disk",
-                                          "box",    "mesh",  "bezier_rotate"};
-
-std::vector<std::string> keys_of(Shape shape) {
-  std::vector<std::string> keys{"type", "transform", "motion", "texture", "material"};
-  switch (shape) {
-    case Shape::sphere:
-    case Shape::disk:
-      keys.push_back("radius");
-      break;
-    case Shape::box:
-      keys.push_back("size");
-      break;
-    case Shape::mesh:
-      keys.insert(keys.end(), {"path", "tree_type", "smooth"});
-      break;
-    case Shape::bezier:
-      keys.push_back("point");
-      break;
-    default:
-      break;
-  }
-  return keys;
-}
-
 // A sphere stays one under rotations, mirrors and one factor for all axes.
 bool scales_uniformly(const Transform& transform) {
   const auto& [a, b, c] = transform.rows;
@@ -59,13 +34,13 @@ bool goes_below_zero(const std::vector<double>& coefficients, double tolerance, 
 
 // One Bezier curve (radius, height) of degree up to 16. Control points may lie across the axis, the curve may
 // not: its surface would be turned inside out there.
-std::vector<std::array<double, 2>> read_points(const JsonReader& json) {
+std::vector<std::array<double, 2>> read_points(const SceneValue& json) {
   std::vector<std::array<double, 2>> points;
   std::vector<double> radii;
   bool distinct = false;
   double largest = 0;
-  for (const JsonReader& item : json.items(2, 17, "control points")) {
-    const auto xy = item.items(2, 2, "numbers, radius and height");
+  for (const SceneValue& item : json.items()) {
+    const auto xy = item.items();
     points.push_back({xy[0].number(), xy[1].number()});
     radii.push_back(points.back()[0]);
     largest = std::max(largest, std::abs(radii.back()));
@@ -79,9 +54,9 @@ std::vector<std::array<double, 2>> read_points(const JsonReader& json) {
   return points;
 }
 
-void read_mesh_keys(const JsonReader& json, Object& object, SceneLoader& loader) {
+void read_mesh_keys(const SceneObject& json, Object& object, SceneLoader& loader) {
   if (const auto tree = json.find("tree_type"))
-    if (tree->choice({"KDTree", "BSPTree", "MyTree"}) != 0)
+    if (tree->choice() != 0)
       loader.notice(*tree, "every mesh is put into the KD-tree; \"tree_type\" is ignored");
   object.mesh = loader.mesh(json.at("path"));
   // A file without normals is drawn as the flat faces it has, unless smoothing is asked for.
@@ -90,7 +65,7 @@ void read_mesh_keys(const JsonReader& json, Object& object, SceneLoader& loader)
 }
 
 // What the mesh of an object has to be for its material.
-void prepare_mesh(const JsonReader& json, Object& object, SceneLoader& loader) {
+void prepare_mesh(const SceneObject& json, Object& object, SceneLoader& loader) {
   const MaterialSpec& material = loader.scene.materials[static_cast<std::size_t>(object.material)];
   if (material.kind == MaterialSpec::Kind::glass) object.mesh = loader.mesh_of_glass(json, object.mesh);
   Mesh& mesh = loader.scene.meshes[static_cast<std::size_t>(object.mesh)];
@@ -101,30 +76,26 @@ void prepare_mesh(const JsonReader& json, Object& object, SceneLoader& loader) {
 
 }  // namespace
 
-void read_object(const JsonReader& json, SceneLoader& loader) {
-  if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
+void read_object(const SceneValue& value, SceneLoader& loader) {
+  const SceneObject json = value.object();
   Object object;
   object.pointer = json.pointer();
-  object.shape = static_cast<Shape>(json.at("type").choice(type_names));
-  json.check_keys(keys_of(object.shape));
+  object.shape = static_cast<Shape>(json.type());
   if (const auto transform = json.find("transform")) object.transform = read_transform(*transform);
-  if (const auto motion = json.find("motion")) {
-    motion->check_keys({"shift"});
-    object.motion = read_vector(motion->at("shift"));
-  }
+  if (const auto motion = json.find("motion")) object.motion = motion->object().vector("shift");
 
   switch (object.shape) {
     case Shape::sphere:
-      object.radius = json.at("radius").number(positive_number);
+      object.radius = json.number("radius");
       if (!scales_uniformly(object.transform))
         json.at("transform")
             .fail("expected one factor for x, y and z, got a scale that makes the sphere an ellipsoid");
       break;
     case Shape::disk:
-      object.radius = json.number("radius", 1, positive_number);
+      object.radius = json.number("radius");
       break;
     case Shape::box:
-      object.size = read_vector(json, "size", {1, 1, 1}, positive_number);
+      object.size = json.vector("size");
       break;
     case Shape::mesh:
       read_mesh_keys(json, object, loader);
@@ -136,14 +107,10 @@ void read_object(const JsonReader& json, SceneLoader& loader) {
       break;
   }
 
-  if (json.has("texture") && json.has("material"))
-    json.at("material").fail("expected \"material\" or \"texture\", got both");
   if (const auto texture = json.find("texture"))
     object.material = read_base_texture(*texture, object.shape, loader);
-  else if (const auto material = json.find("material"))
-    object.material = read_material_of(*material, loader);
   else
-    json.fail("expected \"material\" or \"texture\", got neither");
+    object.material = read_material_of(json.at("material"), loader);
 
   if (object.shape == Shape::mesh) prepare_mesh(json, object, loader);
   const Scene& scene = loader.scene;

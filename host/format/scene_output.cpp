@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
-#include "format/json_reader.hpp"
+#include "format/scene_value.hpp"
 #include "image/image_formats.hpp"
 
 namespace causticl {
@@ -57,7 +57,7 @@ bool is_picture(const fs::path& file) {
 
 }  // namespace
 
-std::string read_output(const JsonReader& json) {
+std::string read_output(const SceneValue& json) {
   std::string path = json.string();
   if (path.empty()) return path;
   if (has_control_characters(path)) json.fail_expected("the name of a picture without control characters");

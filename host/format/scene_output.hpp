@@ -7,11 +7,11 @@
 
 namespace causticl {
 
-class JsonReader;
+class SceneValue;
 
 /// The key `path`. Throws UserError, with its place, for control characters in it, and where it names no
 /// file.
-std::string read_output(const JsonReader& path);
+std::string read_output(const SceneValue& path);
 
 struct SceneOutput {
   std::string file;    // within the working directory

@@ -1,32 +1,23 @@
-// Vectors and the key `transform`.
+// The key `transform`.
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
-#include "format/option_values.hpp"
 #include "format/scene_loader.hpp"
 
 namespace causticl {
 namespace {
 
-constexpr NumberRange angle{-1e6, 1e6, "a number from -1e6 to 1e6"};
-
-Vec3 read_xyz(const JsonReader& json, const NumberRange& range) {
-  return {json.at("x").number(range), json.at("y").number(range), json.at("z").number(range)};
-}
-
 // "x", "y", "z", or a vector of any length but 0.
-Vec3 read_axis(const JsonReader& json) {
-  const JsonReader axis = json.at("axis");
-  if (axis.value().kind == JsonValue::Kind::string) {
+Vec3 read_axis(const SceneObject& json) {
+  const SceneValue axis = json.at("axis");
+  if (axis.is(JsonValue::Kind::string)) {
     Vec3 unit;
-    unit[static_cast<int>(axis.choice({"x", "y", "z"}))] = 1;
+    unit[static_cast<int>(axis.alternative(0).choice())] = 1;
     return unit;
   }
-  const bool is_vector =
-      axis.value().kind == JsonValue::Kind::object || axis.value().kind == JsonValue::Kind::array;
+  const bool is_vector = axis.is(JsonValue::Kind::object) || axis.is(JsonValue::Kind::array);
   if (!is_vector) axis.fail_expected("\"x\", \"y\" or \"z\", or a vector");
-  const Vec3 direction = read_vector(axis);
+  const Vec3 direction = axis.alternative(1).vector();
   // Of components as small as any number may be, the squares would vanish.
   const double largest = max_component({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
   if (!(largest > 0)) axis.fail("expected an axis, got a vector of length 0");
@@ -59,52 +50,23 @@ Transform rotation_by_radians(Vec3 direction, double radians) {
                   : Transform::rotate(axis, direction[axis] < 0 ? -radians : radians);
 }
 
-Transform read_shift(const JsonReader& json) {
-  json.check_keys({"type", "x", "y", "z"});
-  return Transform::shift({json.number("x", 0), json.number("y", 0), json.number("z", 0)});
-}
-
-void check_factor(const JsonReader& factor) {
-  if (std::abs(factor.number()) < positive_number.low)
-    factor.fail_expected("a factor other than 0", "a flat object cannot be scaled back");
-}
-
-Transform read_scale(const JsonReader& json) {
-  json.check_keys({"type", "factor", "x", "y", "z"});
-  if (const auto factor = json.find("factor")) {
-    for (const char* key : {"x", "y", "z"})
-      if (json.has(key))
-        json.at(key).fail(
-            std::string("expected \"factor\", or \"x\", \"y\" and \"z\", got \"factor\" and \"") + key +
-            "\"");
-    check_factor(*factor);
+Transform read_scale(const SceneObject& json) {
+  if (const auto factor = json.find("factor"))
     return Transform::scale({factor->number(), factor->number(), factor->number()});
-  }
-  Vec3 factors{1, 1, 1};
-  const char* const keys[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis)
-    if (const auto factor = json.find(keys[axis])) {
-      check_factor(*factor);
-      factors[axis] = factor->number();
-    }
-  return Transform::scale(factors);
+  return Transform::scale({json.number("x"), json.number("y"), json.number("z")});
 }
 
 // 16 numbers, row by row, of a matrix that acts on columns (x, y, z, 1).
-Transform read_matrix(const JsonReader& json) {
-  json.check_keys({"type", "values"});
-  const JsonReader values = json.at("values");
-  const auto items = values.items(16, 16, "numbers, the rows of a 4x4 matrix");
+Transform read_matrix(const SceneObject& json) {
+  const SceneValue values = json.at("values");
+  std::vector<double> items;
+  for (const SceneValue& item : values.items()) items.push_back(item.number());
   Transform result;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column)
-      result.rows[row][static_cast<int>(column)] = items[4 * row + column].number();
-    result.translation[static_cast<int>(row)] = items[4 * row + 3].number();
+      result.rows[row][static_cast<int>(column)] = items[4 * row + column];
+    result.translation[static_cast<int>(row)] = items[4 * row + 3];
   }
-  for (std::size_t column = 0; column < 4; ++column)
-    if (items[12 + column].number() != (column == 3 ? 1 : 0))
-      items[12 + column].fail_expected(column == 3 ? "1" : "0",
-                                       "the last row of a matrix without perspective is 0, 0, 0, 1");
   // Relative to the lengths of its rows the determinant is the volume that unit vectors span.
   const double lengths = length(result.rows[0]) * length(result.rows[1]) * length(result.rows[2]);
   if (!(std::abs(result.determinant()) > 1e-12 * lengths))
@@ -112,19 +74,16 @@ Transform read_matrix(const JsonReader& json) {
   return result;
 }
 
-Transform read_step(const JsonReader& json) {
-  if (json.value().kind != JsonValue::Kind::object) json.fail_expected("an object");
-  switch (json.at("type").choice({"shift", "scale", "rotate", "rotateradian", "matrix"})) {
+Transform read_step(const SceneObject& json) {
+  switch (json.type()) {
     case 0:
-      return read_shift(json);
+      return Transform::shift({json.number("x"), json.number("y"), json.number("z")});
     case 1:
       return read_scale(json);
     case 2:
-      json.check_keys({"type", "axis", "degree"});
-      return rotation(read_axis(json), json.at("degree").number(angle));
+      return rotation(read_axis(json), json.number("degree"));
     case 3:
-      json.check_keys({"type", "axis", "radian"});
-      return rotation_by_radians(read_axis(json), json.at("radian").number(angle));
+      return rotation_by_radians(read_axis(json), json.number("radian"));
     default:
       return read_matrix(json);
   }
@@ -144,60 +103,10 @@ double largest_shift(const Transform& transform) {
 
 }  // namespace
 
-Vec3 read_vector(const JsonReader& json, const NumberRange& range) {
-  if (json.value().kind == JsonValue::Kind::object) {
-    json.check_keys({"x", "y", "z"});
-    return read_xyz(json, range);
-  }
-  if (json.value().kind != JsonValue::Kind::array || json.value().items.size() != 3)
-    json.fail_expected("a vector", "write [x, y, z] or {\"x\": x, \"y\": y, \"z\": z}");
-  const auto items = json.items(3, 3, "numbers");
-  return {items[0].number(range), items[1].number(range), items[2].number(range)};
-}
-
-Vec3 read_vector(const JsonReader& json, const std::string& key, Vec3 absent, const NumberRange& range) {
-  const auto found = json.find(key);
-  return found ? read_vector(*found, range) : absent;
-}
-
-double read_fraction(const JsonReader& json, const std::string& key, double absent,
-                     const NumberRange& range) {
-  const auto found = json.find(key);
-  if (!found) return absent;
-  std::string percent = found->value().text;  // of a number as well as of a string
-  if (percent.ends_with('%')) percent.pop_back();
-  const auto value = number<double>(percent);
-  const bool is_percentage =
-      found->value().kind == JsonValue::Kind::string || found->value().number > range.high;
-  if (value && is_percentage && *value > 0 && *value <= 100) {
-    char fraction[32];
-    std::snprintf(fraction, sizeof fraction, "%.12g", *value / 100);
-    found->fail_expected(range.expected, percent + "% is written " + fraction);
-  }
-  return found->number(range);
-}
-
-Color read_color(const JsonReader& json, const NumberRange& range) {
-  if (json.value().kind == JsonValue::Kind::number) {
-    const double grey = json.number(range);
-    return {grey, grey, grey};
-  }
-  const bool is_vector =
-      json.value().kind == JsonValue::Kind::object || json.value().kind == JsonValue::Kind::array;
-  if (!is_vector)
-    json.fail_expected("a colour", "write [r, g, b], {\"x\": r, \"y\": g, \"z\": b}, or one number for grey");
-  return read_vector(json, range);
-}
-
-Color read_color(const JsonReader& json, const std::string& key, Color absent, const NumberRange& range) {
-  const auto found = json.find(key);
-  return found ? read_color(*found, range) : absent;
-}
-
-Transform read_transform(const JsonReader& json) {
+Transform read_transform(const SceneValue& json) {
   Transform result;
-  for (const JsonReader& step : json.items(0, SIZE_MAX, "transforms")) {
-    result = result.followed_by(read_step(step));
+  for (const SceneValue& step : json.items()) {
+    result = result.followed_by(read_step(step.object()));
     // Each step has an inverse; a long chain of them may still leave the range of the arithmetic.
     const double limit = any_number.high;
     if (!(largest_entry(result) <= limit && largest_shift(result) <= limit &&

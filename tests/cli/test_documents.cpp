@@ -1,4 +1,4 @@
-// What the documents point to is there, and the scenes that they show load.
+// What the documents point to is there, and the scenes that they show load and keep to the JSON Schema.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -8,6 +8,8 @@
 
 #include "catch2.hpp"
 #include "format/load_scene.hpp"
+#include "process.hpp"
+#include "scene/schema_examples.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;
@@ -41,7 +43,64 @@ std::vector<std::string> blocks(const std::string& text, const std::string& kind
   return result;
 }
 
+/// An example of the scene format as a whole scene. It is one already, or objects, or a key: of a scene, an
+/// object or a material.
+nlohmann::ordered_json whole_scene(const std::string& example) {
+  auto scene = parse_scene(R"({"camera": {"position": [0, 1, 5], "target": [0, 0, 0], "fov": 40}})");
+  if (example[0] == '"') {
+    auto sphere = parse_scene(R"({"type": "sphere", "radius": 1, "material": {"type": "diffuse"}})");
+    const auto key = parse_scene("{" + example + "}");
+    (key.contains("transform") ? sphere : key.contains("color") ? sphere["material"] : scene).update(key);
+    scene["objects"].push_back(sphere);
+    return scene;
+  }
+  std::string list = "[" + example + "]";
+  for (std::size_t at; (at = list.find("}\n{")) != list.npos;) list.insert(at + 1, ",");
+  const auto parts = parse_scene(list);
+  if (parts[0].contains("camera")) return parts[0];
+  for (const char* name : {"glass", "floor", "glow", "mirror", "wood", "gold"})
+    scene["materials"][name] = {{"type", "mirror"}};
+  scene["objects"] = parts;
+  return scene;
+}
+
 }  // namespace
+
+TEST_CASE("docs/scene.schema.json is what `causticl schema` prints") {
+  const Finished run = run_causticl({"schema"}, root);
+  CHECK(run.exit_code == 0);
+  INFO("regenerate it: build/causticl schema > docs/scene.schema.json");
+  CHECK((run.output == text_of(root / "docs/scene.schema.json")));
+}
+
+TEST_CASE("every example of the scene format loads and keeps to the JSON Schema") {
+  const TemporaryFolder folder;
+  folder.write("queen.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("wood.jpg"));
+  fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("sky.hdr"));  // the contents decide
+  auto scenes = nlohmann::ordered_json::array();
+  for (const std::string& example : blocks(text_of(root / "docs/scene-format.md"), "json")) {
+    scenes.push_back(whole_scene(example));
+    INFO(scenes.back());
+    CHECK(user_error_of([&] { load_scene(folder.write("scene.json", scenes.back().dump())); }) == "");
+  }
+  CHECK(scenes.size() >= 11);
+  const auto verdicts = schema_verdicts(scenes);
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    INFO(scenes[i]);
+    CHECK(verdicts[i] == "ok");
+  }
+}
+
+TEST_CASE("the scene format names every key of the tables") {
+  const std::string page = text_of(root / "docs/scene-format.md");
+  for (const auto& [name, table] : all_tables())
+    for (const SceneKey& key : table->keys)
+      for (const char* word : {key.name, key.alias}) {
+        INFO(name << ": " << (word ? word : ""));
+        CHECK((!word || page.find("`" + std::string(word) + "`") != page.npos));
+      }
+}
 
 TEST_CASE("every file that a document links to, and every script that it names, exists") {
   const std::regex link(R"(\]\(([^)#]+)[^)]*\))"), script(R"((scripts/[a-z_]+\.(sh|py)))");
@@ -75,18 +134,19 @@ TEST_CASE("every source file that a document names exists") {
   CHECK(names > 20);
 }
 
-TEST_CASE("the scenes of README and of getting-started load") {
+TEST_CASE("the scenes of README and of getting-started load and keep to the JSON Schema") {
   const TemporaryFolder folder;
   const std::string tutorial = text_of(root / "docs/getting-started.md");
   for (const auto& mesh : blocks(tutorial, "obj")) folder.write("pyramid.obj", mesh);
   fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("wood.jpg"));
-  int scenes = 0;
+  auto scenes = nlohmann::ordered_json::array();
   for (const std::string& text : {text_of(root / "README.md"), tutorial})
     for (const auto& scene : blocks(text, "json")) {
       if (scene.find("\"camera\"") == scene.npos) continue;
       INFO(scene);
       CHECK_NOTHROW(load_scene(folder.write("scene.json", scene)));
-      ++scenes;
+      scenes.push_back(parse_scene(scene));
     }
-  CHECK(scenes >= 4);
+  CHECK(scenes.size() >= 4);
+  for (const std::string& verdict : schema_verdicts(scenes)) CHECK(verdict == "ok");
 }

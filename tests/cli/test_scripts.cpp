@@ -92,7 +92,7 @@ const std::string all_but_cli11 =
     "g++ cmake ninja-build pkg-config ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers "
     "pocl-opencl-icd "
     "nlohmann-json3-dev libstb-dev libopenexr-dev libxxhash-dev";
-const std::string everything = all_but_cli11 + " libcli11-dev catch2 clang-format";
+const std::string everything = all_but_cli11 + " libcli11-dev catch2 clang-format python3-jsonschema";
 
 }  // namespace
 
@@ -111,8 +111,10 @@ TEST_CASE("Set-up installs just what is missing") {
   const Outcome outcome = machine.run("scripts/setup.sh");
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.output ==
-        "Installing from Debian's packages (this can take minutes): libcli11-dev catch2 clang-format\n");
-  CHECK(machine.calls().find("install -y --no-install-recommends libcli11-dev catch2 clang-format\n") !=
+        "Installing from Debian's packages (this can take minutes): libcli11-dev catch2 clang-format "
+        "python3-jsonschema\n");
+  CHECK(machine.calls().find(
+            "install -y --no-install-recommends libcli11-dev catch2 clang-format python3-jsonschema\n") !=
         std::string::npos);
   machine.add_tool("apt-get", "[[ $* != *install* ]]");
   const Outcome failed = machine.run("scripts/setup.sh");
