@@ -65,7 +65,7 @@ constexpr double unit = 0x1p-24;
 /// rounds by one unit at most, and the distribution is a square of squares.
 constexpr double operations = 32;
 
-constexpr double grazing_cosine = 1e-6;  // to which the kernels lift arriving directions
+constexpr double grazing_cosine = 1e-6;  // to which the kernels lift wi
 
 Vec3 to_vec(const float* v) { return {v[0], v[1], v[2]}; }
 void store(Vec3 v, float* out) {
