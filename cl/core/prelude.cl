@@ -29,7 +29,7 @@
 #define GAMMA(n) ((n) * REAL_EPSILON / (1 - (n) * REAL_EPSILON))
 
 // The same where two forms of one thing meet that the host has rounded to floats each on its own: a map and its
-// inverse, a lamp and the shape that it is. They stay that far apart in double.
+// inverse, an emitter and the shape that it is. They stay that far apart in double.
 #define STORED_EPSILON ((real)5.9604644775390625e-8)
 #define STORED_GAMMA(n) ((n) * STORED_EPSILON / (1 - (n) * STORED_EPSILON))
 

@@ -1,8 +1,8 @@
 // Point, spot and directional lights: no ray meets them by chance, so that they are found by sampling them alone.
 #include "lights/infinite_light.cl"
 
-// The share of a spot's intensity that leaves along the unit vector `direction`: 1 in the even part of the cone, 0
-// outside, and a cubic step in the cosine between.
+// The fraction of a spot's intensity that leaves along the unit vector `direction`: 1 in the even part of the
+// cone, 0 outside, and a cubic step in the cosine between.
 INLINE real spot_falloff(global const Emitter *emitter, real3 direction) {
   // 1 - cosine by the chord, which keeps narrow cones exact.
   real3 chord = direction - convert_real3(emitter->b.xyz);
@@ -31,10 +31,10 @@ INLINE real3 delta_light_arrival(global const Emitter *emitter, real3 position, 
 }
 
 // A photon of the light: directions uniform over the sphere or cone, or one direction from the disc before the scene.
-// *share is its flux over the mean of all.
-INLINE Ray delta_light_ray(global const Emitter *emitter, real2 u, real *share) {
+// *weight is its flux over the mean of all.
+INLINE Ray delta_light_ray(global const Emitter *emitter, real2 u, real *weight) {
   Ray ray;
-  *share = 1;
+  *weight = 1;
   if (emitter->type == EMITTER_DIRECTIONAL) {
     ray.direction = convert_real3(emitter->b.xyz);
     ray.origin = infinite_light_origin(emitter, ray.direction, u);
@@ -44,7 +44,7 @@ INLINE Ray delta_light_ray(global const Emitter *emitter, real2 u, real *share) 
   if (emitter->type == EMITTER_SPOT) {
     ray.direction = cone_uniform(u, convert_real3(emitter->b.xyz), emitter->c.x);
     // A spot's power is pi intensity (outer + even): the step is 1/2 on average.
-    *share = spot_falloff(emitter, ray.direction) * 2 * emitter->c.x / emitter->radiance.w;
+    *weight = spot_falloff(emitter, ray.direction) * 2 * emitter->c.x / emitter->radiance.w;
   } else {
     ray.direction = sphere_uniform(u);
   }

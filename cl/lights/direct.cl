@@ -1,4 +1,4 @@
-// Direct light by one shadow ray, and how it shares the light with rays that meet an emitter by BSDF sampling.
+// Direct light by one shadow ray, and how it is weighted against rays that meet an emitter by BSDF sampling.
 #include "lights/light.cl"
 #include "scene/path_media.cl"
 
@@ -91,9 +91,9 @@ typedef struct {
   real3 reflected;  // radiance to the path if nothing is in the way; zero where no ray need tell
 } LightCandidate;
 
-// Light from emitter `chosen` at a Lambert point (`reflectance` = albedo / pi; the boundary of plastic takes its share of
-// what arrives) with facing normal n. `arriving` is the direction of the path that found the point. With `weigh_bsdf`, the
-// sample is weighted against BSDF sampling by the power heuristic.
+// Light from emitter `chosen` at a Lambert point with facing normal n (`reflectance` = albedo / pi; the
+// boundary of coated diffuse lets a fraction of the light through). `wi` is the direction of the path that
+// found the point. With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
 INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const Bsdf *bsdf, const Surface *surface,
                                         Interior interior, real3 wi, real3 n, real3 reflectance, real4 random,
                                         bool weigh_bsdf) {
@@ -136,7 +136,7 @@ INLINE real3 escaped_radiance(const Scene *scene, real3 direction, real bsdf_pdf
   return bsdf_pdf > 0 ? radiance * power_weight(bsdf_pdf, pdf) : radiance;
 }
 
-// Radiance from one emitter that the medium at `position` scatters to a path that arrives along `arriving`;
+// Radiance from one emitter that the medium at `position` scatters to a path that arrives along `wi`;
 // `throughput` includes the scattering coefficient. With `weigh_phase`, the sample is weighted against sampling of the
 // phase function by the power heuristic.
 static real3 direct_light_medium(const Scene *scene, real3 position, real3 wi, real3 throughput, real4 random,

@@ -51,9 +51,9 @@ INLINE real bezier_parameter(global const float *table, uint steps, real u, real
       low = middle + 1;
   }
   real before = low == 0 ? (real)0 : (real)table[low - 1];
-  real share = table[low] - before;
-  *density = share * steps;
-  return (low + (share > 0 ? clamp((u - before) / share, (real)0, (real)1) : (real)0.5)) / steps;
+  real pmf = table[low] - before;
+  *density = pmf * steps;
+  return (low + (pmf > 0 ? clamp((u - before) / pmf, (real)0, (real)1) : (real)0.5)) / steps;
 }
 
 INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) {
@@ -220,12 +220,12 @@ INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, r
   real sine;
   Ray ray;
   ray.direction = -environment_direction(emitter, position, &sine);
-  real pdf = environment_pdf(value.density, sine), share = 1;
+  real pdf = environment_pdf(value.density, sine), weight = 1;
   if (has_horizon(&scene->geometry))
-    ray = horizon_ray(scene, emitter, ray.direction, place, &share);
+    ray = horizon_ray(scene, emitter, ray.direction, place, &weight);
   else
     ray.origin = infinite_light_origin(emitter, ray.direction, place);
-  *flux = pdf > 0 ? value.radiance * share / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
+  *flux = pdf > 0 ? value.radiance * weight / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
   return ray;
 }
 
@@ -246,12 +246,12 @@ INLINE Ray photon_emit_from(const Scene *scene, uint chosen, real4 choice, real 
   if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
     return environment_emit(scene, emitter, choice, (real2)(u, v), flux);
   if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
-    real share;
-    Ray leaving = delta_light_ray(emitter, (real2)(u, v), &share);
+    real weight;
+    Ray ray = delta_light_ray(emitter, (real2)(u, v), &weight);
     if (emitter->type == EMITTER_DIRECTIONAL && has_horizon(&scene->geometry))
-      leaving = horizon_ray(scene, emitter, leaving.direction, (real2)(u, v), &share);
-    *flux = radiance * (share / max_component(radiance));
-    return leaving;
+      ray = horizon_ray(scene, emitter, ray.direction, (real2)(u, v), &weight);
+    *flux = radiance * (weight / max_component(radiance));
+    return ray;
   }
   real error, area_pdf;
   real3 point = emitter_point(scene, emitter, choice.y, choice.z, &normal, &error, &area_pdf);
@@ -259,7 +259,7 @@ INLINE Ray photon_emit_from(const Scene *scene, uint chosen, real4 choice, real 
   Ray ray;
   ray.direction = hemisphere_cosine_by(u, v, normal);
   ray.origin = offset_origin(point, error, normal, ray.direction);
-  real share = area_pdf > 0 ? 1 : 0, whole = max_component(radiance) * area_pdf * power[3];
-  *flux = quotient3(scaled3(share, radiance), area_pdf > 0 ? whole : 1);
+  real weight = area_pdf > 0 ? 1 : 0, whole = max_component(radiance) * area_pdf * power[3];
+  *flux = quotient3(scaled3(weight, radiance), area_pdf > 0 ? whole : 1);
   return ray;
 }

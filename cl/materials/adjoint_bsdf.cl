@@ -62,8 +62,8 @@ typedef struct {
 INLINE SpecularWays mirror_ways(ShadingFrame f) {
   SpecularWays ways;
   bool agrees = f.cosine_s > 0 && f.cosine_g >= GRAZING_COSINE;
-  real leaving_g = 2 * f.cosine_s * f.between - f.cosine_g;
-  ways.mirrored_s = agrees && leaving_g >= GRAZING_COSINE ? leaving_g / f.cosine_g : 0;
+  real wo_g = 2 * f.cosine_s * f.between - f.cosine_g;
+  ways.mirrored_s = agrees && wo_g >= GRAZING_COSINE ? wo_g / f.cosine_g : 0;
   // The path that Ng mirrors to the photon's direction has this cosine with Ns.
   real path_s = 2 * f.cosine_g * f.between - f.cosine_s;
   ways.mirrored_g = reflects_about_shading(f.cosine_g, path_s, f.between) ? 0 : 1;
@@ -88,9 +88,9 @@ INLINE SpecularWays glass_ways(ShadingFrame f, real eta) {
   ways.mirrored_g = ways.mirrored_g * reflectance + (total ? 1 - reflectance : 0);
 
   // Refraction about Ns: it squeezes solid angle by the cosines about Ns, projected area goes by those about Ng.
-  real leaving_g = f.cosine_g / eta - (f.cosine_s / eta - back_s) * f.between;
-  bool through = f.cosine_s > 0 && f.cosine_g >= GRAZING_COSINE && reflectance_s < 1 && leaving_g >= GRAZING_COSINE;
-  real factor = f.cosine_s * leaving_g / (fmax(back_s, GRAZING_COSINE) * fmax(f.cosine_g, GRAZING_COSINE));
+  real wo_g = f.cosine_g / eta - (f.cosine_s / eta - back_s) * f.between;
+  bool through = f.cosine_s > 0 && f.cosine_g >= GRAZING_COSINE && reflectance_s < 1 && wo_g >= GRAZING_COSINE;
+  real factor = f.cosine_s * wo_g / (fmax(back_s, GRAZING_COSINE) * fmax(f.cosine_g, GRAZING_COSINE));
   ways.refracted_s = through ? (1 - reflectance_s) * factor : 0;
 
   // Refraction about Ng: of paths from which Ns is tilted away, and of those that Ns would bend back.
@@ -116,17 +116,17 @@ INLINE BsdfSample adjoint_specular_sample(const Bsdf *bsdf, const Surface *surfa
     ways.cosine_t_s = through.cosine_t_s, ways.cosine_t_g = through.cosine_t_g;
   }
   real mirrored = ways.mirrored_s + ways.mirrored_g, all = mirrored + ways.refracted_s + ways.refracted_g;
-  // The coat of plastic has been chosen by random.z.
+  // The boundary of coated diffuse has been chosen by random.z.
   real place = (glass ? random.z : random.x) * all;
   bool refracts = glass && place >= mirrored, about_s = refracts ? place < mirrored + ways.refracted_s : place < ways.mirrored_s;
   real cosine = about_s ? f.cosine_s : fmax(f.cosine_g, GRAZING_COSINE);
   real cosine_t = fmax(about_s ? ways.cosine_t_s : ways.cosine_t_g, GRAZING_COSINE);
   real3 normal = choose3(about_s, f.shading, f.geometric);
   real along = refracts ? cosine / eta - cosine_t : 2 * cosine;
-  real3 leaving = add3(choose3(refracts, quotient3(d, eta), d), scaled3(along, normal));
+  real3 wo = add3(choose3(refracts, quotient3(d, eta), d), scaled3(along, normal));
   real3 tint = bsdf->color;
   if (HAS(EFFECT_CONDUCTOR | EFFECT_PLASTIC)) tint = specular_tint(bsdf, about_s ? f.cosine_s : ways.tint_cosine_g);
-  BsdfSample sample = {unit3(leaving), scaled3(all, tint), 0};
+  BsdfSample sample = {unit3(wo), scaled3(all, tint), 0};
   return sample;
 }
 
@@ -137,16 +137,16 @@ INLINE BsdfSample adjoint_diffuse_sample(const Bsdf *bsdf, const Surface *surfac
   sample.direction = hemisphere_cosine_by(random.x, random.y, f.geometric);
   sample.pdf = max(dot3(sample.direction, f.geometric), (real)0) * INV_PI;
   // Camera paths that Ns is tilted away from see a surface with the normal Ng.
-  real leaving_s = dot3(sample.direction, f.shading);
-  bool tilted = !(leaving_s > 0);
+  real wo_s = dot3(sample.direction, f.shading);
+  bool tilted = !(wo_s > 0);
   real cosine = tilted ? f.cosine_g : fmax(f.cosine_s, (real)0);
   sample.weight = scaled3(cosine / fmax(f.cosine_g, GRAZING_COSINE), bsdf->color);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) {
     // plastic_choose() let the photon in by its facing normal.
-    real leaving = tilted ? dot3(sample.direction, f.geometric) : leaving_s;
+    real cosine_wo = tilted ? dot3(sample.direction, f.geometric) : wo_s;
     real let_in = fresnel_transmittance(f.cosine_s > 0 ? f.cosine_s : f.cosine_g, bsdf->ior);
     real lets_in = fresnel_transmittance(cosine, bsdf->ior);
-    sample.weight *= fresnel_transmittance(leaving, bsdf->ior) * (let_in > 0 ? lets_in / let_in : 0);
+    sample.weight *= fresnel_transmittance(cosine_wo, bsdf->ior) * (let_in > 0 ? lets_in / let_in : 0);
   }
   return sample;
 }
@@ -176,8 +176,8 @@ INLINE BsdfSample adjoint_rough_sample(const Bsdf *bsdf, const Surface *surface,
   real3 n = about_g ? f.geometric : f.shading;
   BsdfSample sample = rough_sample(bsdf, surface, d, n, random, false);
   if (is_tilted_away(surface, sample.direction) != about_g) sample.weight = (real3)(0, 0, 0);
-  real leaving_g = fabs(dot3(sample.direction, f.geometric)), leaving_s = fabs(dot3(sample.direction, f.shading));
-  real factor = f.cosine_s * leaving_g / fmax(f.cosine_g * leaving_s, (real)1e-12f);
+  real wo_g = fabs(dot3(sample.direction, f.geometric)), wo_s = fabs(dot3(sample.direction, f.shading));
+  real factor = f.cosine_s * wo_g / fmax(f.cosine_g * wo_s, (real)1e-12f);
   sample.weight *= about_g ? 1 / geometric : factor / (1 - geometric);
   return sample;
 }

@@ -1,4 +1,5 @@
-// How a surface scatters: Lambert, perfect mirror, dielectric and conductor, smooth or rough, coated Lambert.
+// How a surface scatters: Lambert, perfect mirror, dielectric and conductor, smooth or rough, coated diffuse.
+// Here wi is the direction in which a path arrives and wo that in which it goes on, both along the path.
 #include "shared/effects.h"
 #include "materials/fresnel.cl"
 #include "materials/microfacet.cl"
@@ -14,8 +15,8 @@ typedef struct {
   real ior;      // inside / outside
   real alpha;    // of a rough lobe; 0 for a perfectly specular one
   real3 eta, k;  // conductor: complex index inside / outside
-  real inner;    // plastic: diffuse reflectance of the boundary from inside
-  bool coated;   // a Lambert lobe under the boundary of plastic
+  real inner;    // coated diffuse: diffuse reflectance of the boundary from inside
+  bool coated;   // the Lambert lobe of coated diffuse, under its boundary
 } Bsdf;
 
 INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
@@ -100,13 +101,13 @@ INLINE BsdfSample glass_sample(const Bsdf *bsdf, const Surface *surface, real3 d
     real3 again = add3(slowed, scaled3(cosine / eta - fmax(cosine_t, GRAZING_COSINE), facing));
     x = again.x, y = again.y, z = again.z;
   }
-  real3 leaving;
+  real3 wo;
   if (refracts) {
-    leaving = unit3((real3)(x, y, z));
-    x = leaving.x, y = leaving.y, z = leaving.z;
+    wo = unit3((real3)(x, y, z));
+    x = wo.x, y = wo.y, z = wo.z;
   } else {
-    leaving = mirror_direction(surface, d, choose3(bent_back, facing, n));
-    x = leaving.x, y = leaving.y, z = leaving.z;
+    wo = mirror_direction(surface, d, choose3(bent_back, facing, n));
+    x = wo.x, y = wo.y, z = wo.z;
   }
   BsdfSample sample = {(real3)(x, y, z), bsdf->color, 0};
   if (radiance) sample.weight = quotient3(sample.weight, refracts ? eta * eta : 1);
@@ -122,7 +123,7 @@ INLINE bool bsdf_is_rough(const Bsdf *bsdf) {
 INLINE bool bsdf_is_specular(const Bsdf *bsdf) { return bsdf->kind != MATERIAL_DIFFUSE && !bsdf_is_rough(bsdf); }
 
 // Photons are kept whatever the texel that they land on reflects: the points around it may reflect more. Only where all is
-// black, as on most lamps, are they of no use.
+// black, as on most emitters, are they of no use.
 INLINE bool is_black(const Bsdf *bsdf, global const Material *material) {
   return material->color_texture == 0 && !(max_component(bsdf->color) > 0);
 }
@@ -133,7 +134,7 @@ INLINE bool keeps_photons(const Bsdf *bsdf, global const Material *material) {
   return (plastic || bsdf->kind == MATERIAL_DIFFUSE) && !is_black(bsdf, material);
 }
 
-// What the reflection of a conductor, mirror or coat is tinted by where `cosine` is that of incidence.
+// What the reflection of a conductor, mirror or coated diffuse is tinted by, where `cosine` is of incidence.
 INLINE real3 specular_tint(const Bsdf *bsdf, real cosine) {
   if (HAS(EFFECT_CONDUCTOR) && bsdf->kind == MATERIAL_CONDUCTOR)
     return (real3)(fresnel_conductor(cosine, bsdf->eta.x, bsdf->k.x),
@@ -161,23 +162,23 @@ INLINE Facing facing_frame(const Bsdf *bsdf, const Surface *surface, real3 wi, r
   return facing;
 }
 
-// Weight and density of the direction `leaving` off microfacets with the normal h, both in the local frame.
-INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leaving, real3 h, bool radiance) {
-  BsdfSample sample = {leaving, (real3)(0, 0, 0), 0};
+// Weight and density of the direction `wo` off microfacets with the normal h, both in the local frame.
+INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 wo, real3 h, bool radiance) {
+  BsdfSample sample = {wo, (real3)(0, 0, 0), 0};
   real cosine = fmin(dot3(facing->v, h), (real)1), cosine_t;
   if (!(cosine > 0)) return sample;
   real density = ggx_visible_density(facing->v, h, bsdf->alpha);
-  real shadowing = ggx_shadowing(facing->v, leaving, bsdf->alpha);
+  real shadowing = ggx_shadowing(facing->v, wo, bsdf->alpha);
   if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS) {
     real reflectance = fresnel_dielectric(cosine, facing->eta, &cosine_t);
     sample.weight = bsdf->color * shadowing;
-    if (leaving.z > 0) {
+    if (wo.z > 0) {
       sample.pdf = reflectance * density * (real)0.25f;
     } else {
       sample.pdf = (1 - reflectance) * density * refraction_jacobian(cosine, cosine_t, facing->eta);
       if (radiance) sample.weight = sample.weight / (facing->eta * facing->eta);
     }
-  } else if (leaving.z > 0) {
+  } else if (wo.z > 0) {
     sample.weight = specular_tint(bsdf, cosine) * shadowing;
     sample.pdf = density * (real)0.25f;
   }
@@ -187,17 +188,17 @@ INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 leavi
 // The lobe in a direction that light sampling chose: weight * pdf is BSDF * cosine, pdf that of bsdf_sample.
 INLINE BsdfSample rough_evaluate(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real3 direction) {
   Facing facing = facing_frame(bsdf, surface, wi, n);
-  real3 leaving = (real3)(dot3(direction, facing.tangent), dot3(direction, facing.bitangent), dot3(direction, n));
-  real3 h = microfacet_normal(facing.v, leaving, facing.eta);
+  real3 wo = (real3)(dot3(direction, facing.tangent), dot3(direction, facing.bitangent), dot3(direction, n));
+  real3 h = microfacet_normal(facing.v, wo, facing.eta);
   // A shading normal may see a direction on the other side than the true surface does: nothing goes there. Nor does
   // a microfacet refract what would leave on the side that it came from (Walter et al. 2007, section 4.2).
   real3 g = surface->geometric_normal;
   bool reflected = dot3(direction, g) * dot3(wi, g) < 0;
-  if (reflected != leaving.z > 0 || (!reflected && !(dot3(leaving, h) < 0))) {
+  if (reflected != wo.z > 0 || (!reflected && !(dot3(wo, h) < 0))) {
     BsdfSample nothing = {direction, (real3)(0, 0, 0), 0};
     return nothing;
   }
-  return rough_lobe(bsdf, &facing, leaving, h, true);
+  return rough_lobe(bsdf, &facing, wo, h, true);
 }
 
 // Reflects off or refracts through a visible microfacet. Paths that end under the surface, where light would
@@ -209,30 +210,30 @@ INLINE BsdfSample rough_sample(const Bsdf *bsdf, const Surface *surface, real3 w
   real cosine = fmin(dot3(v, h), (real)1), cosine_t;
   bool refracts = HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS &&
                   random.z >= fresnel_dielectric(cosine, facing.eta, &cosine_t);
-  real3 leaving = normalize(refracts ? (cosine / facing.eta - cosine_t) * h - v / facing.eta : 2 * cosine * h - v);
-  BsdfSample sample = rough_lobe(bsdf, &facing, leaving, h, radiance);
-  sample.direction = normalize(leaving.x * facing.tangent + leaving.y * facing.bitangent + leaving.z * n);
+  real3 wo = normalize(refracts ? (cosine / facing.eta - cosine_t) * h - v / facing.eta : 2 * cosine * h - v);
+  BsdfSample sample = rough_lobe(bsdf, &facing, wo, h, radiance);
+  sample.direction = normalize(wo.x * facing.tangent + wo.y * facing.bitangent + wo.z * n);
   real3 g = surface->geometric_normal;
   bool reflected = dot3(sample.direction, g) * dot3(wi, g) < 0;
-  if (refracts == leaving.z > 0 || refracts == reflected) sample.weight = (real3)(0, 0, 0);
+  if (refracts == wo.z > 0 || refracts == reflected) sample.weight = (real3)(0, 0, 0);
   return sample;
 }
 
-// Plastic is a dielectric boundary over a Lambert base that sends light back and forth between them: its base
-// reflects c T(in) T(out) / (pi eta^2 (1 - c inner)), T the boundary's transmittance (Ashikhmin & Shirley 2000, with
-// the sum over inner reflections of Kubelka 1942). Makes the material one of its lobes, chosen by `random`, its
-// weight divided by the probability.
+// Coated diffuse is a dielectric boundary over a Lambert base that sends light back and forth between them:
+// its base reflects c T(in) T(out) / (pi eta^2 (1 - c inner)), T the boundary's transmittance (Ashikhmin &
+// Shirley 2000, with the sum over inner reflections of Kubelka 1942). Makes the material one of its lobes,
+// chosen by `random`, its weight divided by the probability.
 INLINE void plastic_choose(Bsdf *bsdf, real3 wi, real3 n, real random) {
   real transmittance = fresnel_transmittance(-dot3(wi, n), bsdf->ior);
   real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->inner));
-  real coat = 1 - transmittance, share = coat + max_component(base);
-  coat = share > 0 ? coat / share : 1;
-  if (random < coat) {
-    bsdf->color = (real3)(1, 1, 1) / coat;
+  real reflectance = 1 - transmittance, sum = reflectance + max_component(base);
+  real specular_pmf = sum > 0 ? reflectance / sum : 1;
+  if (random < specular_pmf) {
+    bsdf->color = (real3)(1, 1, 1) / specular_pmf;
   } else {
     bsdf->kind = MATERIAL_DIFFUSE;
     bsdf->coated = true;
-    bsdf->color = base / (1 - coat);
+    bsdf->color = base / (1 - specular_pmf);
   }
 }
 
@@ -245,8 +246,8 @@ INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, r
   BsdfSample lambert = diffuse_sample(bsdf, surface, direction, n, random);
   real x = lambert.direction.x, y = lambert.direction.y, z = lambert.direction.z;
   if (HAS(EFFECT_MIRROR | EFFECT_GLASS) && !diffuse) {
-    real3 leaving = mirror_direction(surface, direction, n);
-    x = leaving.x, y = leaving.y, z = leaving.z;
+    real3 wo = mirror_direction(surface, direction, n);
+    x = wo.x, y = wo.y, z = wo.z;
   }
   if (HAS(EFFECT_GLASS)) {
     bool glass = bsdf->kind == MATERIAL_GLASS;

@@ -19,7 +19,7 @@ INLINE real fresnel_dielectric(real cosine, real eta, real *cosine_t) {
   return fmin((real)0.5 * (parallel * parallel + perpendicular * perpendicular), (real)1);
 }
 
-// Share of the light that a smooth boundary to the index `eta` lets through.
+// Fraction of the light that a smooth boundary to the index `eta` lets through.
 INLINE real fresnel_transmittance(real cosine, real eta) {
   real cosine_t;
   return 1 - fresnel_dielectric(cosine, eta, &cosine_t);

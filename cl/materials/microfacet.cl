@@ -46,9 +46,9 @@ INLINE real3 ggx_visible_normal(real3 v, real alpha, real2 u) {
 
 // Masking and shadowing given that v sees the microfacet, G2 / G1 (Heitz 2014, equation 99): what a path keeps
 // that was sampled by visible normals. In [0, 1].
-INLINE real ggx_shadowing(real3 v, real3 leaving, real alpha) {
-  real z = fabs(leaving.z), stretch = ggx_stretch(v, alpha);
-  real sum = z * stretch + v.z * ggx_stretch(leaving, alpha);
+INLINE real ggx_shadowing(real3 v, real3 wo, real alpha) {
+  real z = fabs(wo.z), stretch = ggx_stretch(v, alpha);
+  real sum = z * stretch + v.z * ggx_stretch(wo, alpha);
   return sum > 0 ? z * (v.z + stretch) / sum : 0;
 }
 
@@ -60,9 +60,9 @@ INLINE real refraction_jacobian(real cosine, real cosine_t, real eta) {
   return eta * eta * cosine * cosine_t * inverse * inverse;
 }
 
-// The microfacet normal that turns v into `leaving`, which lies below z = 0 where it is refracted; toward +z.
-INLINE real3 microfacet_normal(real3 v, real3 leaving, real eta) {
-  real3 h = leaving.z > 0 ? v + leaving : v + eta * leaving;
+// The microfacet normal that turns v into `wo`, which lies below z = 0 where it is refracted; toward +z.
+INLINE real3 microfacet_normal(real3 v, real3 wo, real eta) {
+  real3 h = wo.z > 0 ? v + wo : v + eta * wo;
   real square = dot(h, h);
   if (!(square > 0)) return (real3)(0, 0, 1);
   return h * ((h.z < 0 ? -1 : 1) / sqrt(square));

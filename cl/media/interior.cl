@@ -34,7 +34,7 @@ INLINE Interior interior_after(Interior interior, global const Material *materia
   return dot3(direction, surface->geometric_normal) < 0 ? interior_of(material) : interior_none();
 }
 
-// Share of light that is left after `distance` inside of glass; outside all of it.
+// Fraction of light that is left after `distance` inside of glass; outside all of it.
 INLINE real3 interior_transmittance(Interior interior, real distance) {
   return transmittance(interior.absorption, distance);
 }

@@ -8,7 +8,7 @@ typedef struct {
   real g;            // mean cosine of the phase function
 } Medium;
 
-// Share of light that is left after `distance` (Beer & Lambert). Where nothing absorbs all is, however far.
+// Fraction of light left after `distance` (Beer & Lambert). Where nothing absorbs all is, however far.
 INLINE real3 transmittance(real3 extinction, real distance) {
   return exp(-extinction * fmin(distance, (real)FLT_MAX));
 }
@@ -22,7 +22,7 @@ INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 
   real sum = throughput->x + throughput->y + throughput->z;
   if (!(sum > 0) || !(max_component(medium->extinction) > 0)) return false;
   real u = random.x * sum;
-  real3 share = *throughput / sum;
+  real3 pmf = *throughput / sum;
   // Rounding must not choose a channel that carries nothing.
   bool first = u < throughput->x || !(throughput->y + throughput->z > 0);
   bool second = u < throughput->x + throughput->y || !(throughput->z > 0);
@@ -30,7 +30,7 @@ INLINE bool medium_flight(const Medium *medium, real t_max, real2 random, real3 
   *distance = extinction > 0 ? -log1p(-random.y) / extinction : (real)INFINITY;
   bool interacts = *distance < t_max;
   real3 left = transmittance(medium->extinction, interacts ? *distance : t_max);
-  *throughput *= left / (interacts ? dot3(share, medium->extinction * left) : dot3(share, left));
+  *throughput *= left / (interacts ? dot3(pmf, medium->extinction * left) : dot3(pmf, left));
   return interacts;
 }
 

@@ -57,24 +57,24 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
   Interior interior = interior_none();
   Boundary boundary;
   boundary_at_camera(scene, &boundary, ray, &interior, counters);
-  for (uint depth = 0; depth <= params->max_depth; ++depth) {
+  for (uint bounce = 0; bounce <= params->max_depth; ++bounce) {
     Hit hit = hit_none(INFINITY);
     ++rays;
-    bool did_hit = PRIMARY_HITS_FOUND && depth == 0 ? primary_hit(first, &hit)
+    bool did_hit = PRIMARY_HITS_FOUND && bounce == 0 ? primary_hit(first, &hit)
                                               : media_closest(scene, &boundary.media, ray, &hit);
     count_diagnostics(hit.diagnostics, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, did_hit, interior)) {
       real distance, begin, length;
       real3 before = throughput;
-      if (medium_flight(&scene->medium, hit.t, path_random_at(&sampler, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
-        if (depth == params->max_depth) break;
+      if (medium_flight(&scene->medium, hit.t, path_random_at(&sampler, bounce, DIM_MEDIUM).xy, &throughput, &distance)) {
+        if (bounce == params->max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
         point.normal = IN_MEDIUM | diffuse_vertex_mark(prefix);
         prefix = prefix_after(prefix, false);
         if (shadow_rays)
           radiance_add(&radiance, prefix,
                        direct_light_medium(scene, position, ray.direction, throughput * scene->medium.scattering,
-                                           path_random_at(&sampler, depth, DIM_LIGHT), false, &rays, counters));
+                                           path_random_at(&sampler, bounce, DIM_LIGHT), false, &rays, counters));
         real3 weight = medium_segment(&scene->medium, before, hit.t, distance, params->segment, &begin, &length);
         segment = length * ray.direction;
         vstore3(ray.origin + begin * ray.direction, 0, point.position);
@@ -90,7 +90,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
 #if DIFFUSE_VERTICES_BATCHED
     if (scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE) {
       diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, sampler.pixel, index % params->visible_points, ray, hit, throughput,
-                    radiance.sum, depth, counted);
+                    radiance.sum, bounce, counted);
       return rays;
     }
 #endif
@@ -106,16 +106,16 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     if (HAS(EFFECT_ROUGH) && bsdf_pdf > 0 && max_component(emission) > 0)
       emission *= emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
     if (!counted && !beyond) radiance_add(&radiance, prefix, throughput * emission);
-    if (depth == params->max_depth) break;
+    if (bounce == params->max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &throughput);
-    real4 random = path_random_at(&sampler, depth, DIM_BSDF);
+    real4 random = path_random_at(&sampler, bounce, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
       counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
-                           depth, params->max_depth, counted, &radiance, &rays, counters);
+                           bounce, params->max_depth, counted, &radiance, &rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     if (!DIFFUSE_VERTICES_BATCHED && bsdf.kind == MATERIAL_DIFFUSE) {
@@ -125,15 +125,15 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       bool far = is_far(&scene->geometry, hit, surface.position);
       bool counts = !beyond || (far && passes_sphere(&scene->geometry, surface.position, -ray.direction));
       bool several = params->plane_count > 1 && has_horizon(&scene->geometry);
-      bool goes_on = several && (!counts || random_at(stream, depth, DIM_CHANNEL).y < (real)0.5f);
+      bool goes_on = several && (!counts || random_at(stream, bounce, DIM_CHANNEL).y < (real)0.5f);
       real3 side = dot3(surface.geometric_normal, ray.direction) < 0 ? surface.geometric_normal : -surface.geometric_normal;
       point.normal = normal_pack(side) | diffuse_vertex_mark(prefix);
       real radius;
       if (probe_wanted(params, pixels, sampler.pixel, index % params->visible_points, &radius))
         point.normal |= kernel_area_probe(scene, hit, surface.position, side, radius * radius,
-                                       path_random_at(&sampler, depth, DIM_KERNEL_AREA), &rays, counters);
+                                       path_random_at(&sampler, bounce, DIM_KERNEL_AREA), &rays, counters);
       prefix = prefix_after(prefix, false);
-      real4 chosen = path_random_at(&sampler, depth, DIM_LIGHT);
+      real4 chosen = path_random_at(&sampler, bounce, DIM_LIGHT);
       bool lit_here = shadow_rays || (far && lit_from_beyond(scene, chosen));
       if (counts && lit_here && !media_covered(scene, &boundary.media))
         radiance_add(&radiance, prefix,
@@ -145,7 +145,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       if (goes_on) {
         BsdfSample next = diffuse_sample(&bsdf, &surface, ray.direction, n, random);
         throughput *= times * next.weight;
-        if (!path_survives(&throughput, depth, random.w)) break;
+        if (!path_survives(&throughput, bounce, random.w)) break;
         ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
         if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);
         ray.direction = next.direction;
@@ -166,12 +166,12 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, prefix,
                    direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
-                                      path_random_at(&sampler, depth, DIM_LIGHT), &rays, counters));
+                                      path_random_at(&sampler, bounce, DIM_LIGHT), &rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     bsdf_pdf = weigh_lights ? next.pdf : 0;
     throughput *= next.weight;
-    if (!path_survives(&throughput, depth, random.w)) break;
+    if (!path_survives(&throughput, bounce, random.w)) break;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
     ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
     if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);

@@ -10,7 +10,7 @@
 
 // What of a pixel's variance, in PixelError.noise, is that of its neighbours. Rare bright paths have not been seen in most
 // pixels, and in the others they have been seen too often: over all pixels the two make up for each other, nearly.
-#define NEIGHBOURS_SHARE 0.02f
+#define NEIGHBOURS_WEIGHT 0.02f
 
 // Pixels to each side over which a pixel's bound looks for noise as well, and after how many passes half of that counts
 // at least: where bright paths are rare, the first passes may have missed all of the pixels beside.
@@ -77,7 +77,7 @@ INLINE float half_buffer_difference(global const FilmPixel *pixel, uint passes) 
 
 // The variance of means around (x, y) over what it were if a pixel's estimates were independent of each other. The
 // difference of halves tells it, since these are independent, but only where it is not that of the pixels beside.
-INLINE float share_of_variance(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes,
+INLINE float variance_ratio(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes,
                                float unit) {
   uint left, top, right = window_of(x, width, HALF_BUFFERS_REACH, &left), bottom = window_of(y, height, HALF_BUFFERS_REACH, &top);
   float squares = 0, variances = 0;
@@ -88,8 +88,8 @@ INLINE float share_of_variance(global const FilmPixel *film, uint width, uint he
       squares += difference * difference;
       variances += variance_of_mean(pixel, passes, unit);
     }
-  float share = squares / variances;
-  return variances > 0 && isfinite(share) ? share : 1.0f;
+  float ratio = squares / variances;
+  return variances > 0 && isfinite(ratio) ? ratio : 1.0f;
 }
 
 // The blur of the window around (x, y), as far as it lies within the picture: of the halves of the passes the mean, and
@@ -116,9 +116,9 @@ OUTLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, 
 }
 
 // Error of `pixel` after `passes` passes, in luminance. `even` tells that a pixel's estimates are more even than
-// independent ones (sobol.cl), and owe nothing to what other pixels share.
+// independent ones (sobol.cl), and owe nothing to what other pixels have in common.
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
-//          schedule their radii follow, times share_of_variance() where they are even. What the pixel's own passes say of
+//          schedule their radii follow, times variance_ratio() where they are even. What the pixel's own passes say of
 //          it is right on average, but in few passes it is itself noisy; pooled_noise takes the mean of variances around,
 //          which is smooth, but too large for most pixels beside edges and glints, and no less than a part of
 //          the mean further around, which goes down with passes.
@@ -146,10 +146,10 @@ INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint hei
   global const FilmPixel *p = film + pixel;
   PixelError error;
   error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
-  float share = low_discrepancy ? share_of_variance(film, width, height, x, y, passes, unit) : 1.0f;
+  float ratio = low_discrepancy ? variance_ratio(film, width, height, x, y, passes, unit) : 1.0f;
   float own_variance = variance_of_mean(p, passes, unit);
-  error.noise = sqrt(share * ((1 - NEIGHBOURS_SHARE) * own_variance + NEIGHBOURS_SHARE * pooled)) / unit;
-  error.pooled_noise = sqrt(share * bound) / unit;
+  error.noise = sqrt(ratio * ((1 - NEIGHBOURS_WEIGHT) * own_variance + NEIGHBOURS_WEIGHT * pooled)) / unit;
+  error.pooled_noise = sqrt(ratio * bound) / unit;
   error.bias = BIAS_OF_KERNEL * sqrt(fmax(own.mean * own.mean - NOISE_OF_KERNEL_BIAS * noise / windows, 0.0f)) / unit;
   error.half_difference = half_buffer_difference(p, passes);
   if (p->unknown != 0) error.bias = INFINITY;

@@ -80,14 +80,14 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   real3 density = channel_unit(params.channel_shifts) * ((real)params.photon_flux / (PHOTON_FLUX_UNIT * PI * radius2));
   real widest = sqrt(radius2) * fmax((real)params.indirect_radius, (real)1);
   uint found = 0;
-  // What the flux around a point counts for: over the area, in that of the own radius, that surfaces cover.
-  real share_of_kind[PHOTON_KINDS], near_share_of_kind[PHOTON_KINDS];
+  // The flux around a point is divided by the area that surfaces cover, in that of the own radius.
+  real inverse_area[PHOTON_KINDS], near_inverse_area[PHOTON_KINDS];
 #pragma unroll
   for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
     real wider = kind_radius2(&params, kind);
     float of_probes = kind == INDIRECT_PHOTONS ? 1 : 1 / params.indirect_radius;
-    share_of_kind[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes));
-    near_share_of_kind[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes / 2));
+    inverse_area[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes));
+    near_inverse_area[kind] = 1 / (wider * kernel_area_of(pixel.coverage, of_probes / 2));
   }
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = visible_points[i * params.visible_points + s];
@@ -109,24 +109,24 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
       Gathered sum;
-      real3 share, share_near;
+      real3 flux_weight, near_flux_weight;
       if (in_medium) {
         real g = params.extinction.w;
         sum = gather_visible_segment(grids.grid[kind], starts, sorted, visible_points, i * params.visible_points + s, &params,
                                      radius2);
-        share = weight * (phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT);
-        share_near = share;
+        flux_weight = weight * (phase_density(g, g < 0 ? -1 : 1) / PHASE_UNIT);
+        near_flux_weight = flux_weight;
       } else {
         sum = gather_beside(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
                             radius2 * kind_radius2(&params, kind), walls);
-        share = weight * share_of_kind[kind];
-        share_near = weight * near_share_of_kind[kind];
+        flux_weight = weight * inverse_area[kind];
+        near_flux_weight = weight * near_inverse_area[kind];
       }
-      reflected += share * (real3)(sum.red, sum.green, sum.blue);
-      reflected_near += share_near * (real3)(sum.near_red, sum.near_green, sum.near_blue);
+      reflected += flux_weight * (real3)(sum.red, sum.green, sum.blue);
+      reflected_near += near_flux_weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);
       found = add_sat(found, sum.count);
       if (HAS(OUTPUT_LIGHT_PASSES) && sum.count > 0)
-        light_passes_gathered(&radiance, &sum, share * density, point.normal & BEYOND_DIFFUSE);
+        light_passes_gathered(&radiance, &sum, flux_weight * density, point.normal & BEYOND_DIFFUSE);
     }
   }
   real3 kernel_bias = (reflected - 4 * reflected_near) * (density / (real)params.visible_points);

@@ -36,25 +36,25 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
   Interior interior = interior_none();
   Boundary boundary;
   boundary_at_camera(scene, &boundary, ray, &interior, counters);
-  for (uint depth = 0; depth <= max_depth; ++depth) {
+  for (uint bounce = 0; bounce <= max_depth; ++bounce) {
     Hit hit = hit_none(INFINITY);
     ++*rays;
-    bool did_hit = PRIMARY_HITS_FOUND && depth == 0 ? primary_hit(first, &hit)
+    bool did_hit = PRIMARY_HITS_FOUND && bounce == 0 ? primary_hit(first, &hit)
                                               : media_closest(scene, &boundary.media, ray, &hit);
     count_diagnostics(hit.diagnostics, counters);
     if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, did_hit, interior)) {
       real distance;
-      if (medium_flight(&scene->medium, hit.t, path_random_at(sampler, depth, DIM_MEDIUM).xy, &throughput, &distance)) {
-        if (depth == max_depth) break;
+      if (medium_flight(&scene->medium, hit.t, path_random_at(sampler, bounce, DIM_MEDIUM).xy, &throughput, &distance)) {
+        if (bounce == max_depth) break;
         real3 position = ray.origin + distance * ray.direction;
         throughput *= scene->medium.scattering;
         prefix = prefix_after(prefix, false);
         if (scene->emitter_count > 0)
           radiance_add(&radiance, prefix,
                        direct_light_medium(scene, position, ray.direction, throughput,
-                                           path_random_at(sampler, depth, DIM_LIGHT), true, rays, counters));
-        real4 random = path_random_at(sampler, depth, DIM_BSDF);
-        if (!path_survives(&throughput, depth, random.w)) break;
+                                           path_random_at(sampler, bounce, DIM_LIGHT), true, rays, counters));
+        real4 random = path_random_at(sampler, bounce, DIM_BSDF);
+        if (!path_survives(&throughput, bounce, random.w)) break;
         real3 direction = phase_sample(scene->medium.g, ray.direction, random.xy);
         bsdf_pdf = phase_density(scene->medium.g, dot(ray.direction, direction));
         ray.origin = position;
@@ -82,16 +82,16 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
       if (bsdf_pdf > 0) weight = emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
       radiance_add(&radiance, prefix, throughput * emission * weight);
     }
-    if (depth == max_depth) break;
+    if (bounce == max_depth) break;
 
     Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &throughput);
-    real4 random = path_random_at(sampler, depth, DIM_BSDF);
+    real4 random = path_random_at(sampler, bounce, DIM_BSDF);
     if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
       counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
-                           depth, max_depth, counted, &radiance, rays, counters);
+                           bounce, max_depth, counted, &radiance, rays, counters);
     if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
       plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     counted = counted && bsdf_is_specular(&bsdf);
@@ -101,17 +101,17 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, prefix,
                    direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,
-                                path_random_at(sampler, depth, DIM_LIGHT), true, rays, counters));
+                                path_random_at(sampler, bounce, DIM_LIGHT), true, rays, counters));
     }
     if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0 && !covered) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, prefix,
                    direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
-                                      path_random_at(sampler, depth, DIM_LIGHT), rays, counters));
+                                      path_random_at(sampler, bounce, DIM_LIGHT), rays, counters));
     }
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
     throughput *= next.weight;
-    if (!path_survives(&throughput, depth, random.w)) break;
+    if (!path_survives(&throughput, bounce, random.w)) break;
     bsdf_pdf = next.pdf;
     if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
     ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);

@@ -39,14 +39,14 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
       wave->useful[i] = 0;
     }
     wave->index[i] = start.path;
-    wave->depth[i] = 0;
-    wave->flux[0][i] = start.share;  // until the photon has a flux of its own
+    wave->bounce[i] = 0;
+    wave->flux[0][i] = start.weight;  // until the photon has a flux of its own
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0) {
       RandomStream stream = stream_random(&params, wave, i);
       real4 choice = random4(stream, DIM_EMITTER);
       uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
       wave->flux_rg[i] = cell;  // until the photon has a record
-      wave->flux[0][i] *= emission[cell].share;
+      wave->flux[0][i] *= emission[cell].weight;
       wave->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
     } else {
       wave->primitive[i] = photon_emitter(&scene, stream_random(&params, wave, i));
@@ -59,15 +59,16 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
   for (uint i = alive; i < alive + count; ++i) {
     RandomStream stream = stream_random(&params, wave, i);
     real4 random = random4(stream, DIM_EMISSION), choice = random4(stream, DIM_EMITTER);
-    real u = random.x, v = random.y, share = 1;
+    real u = random.x, v = random.y, weight = 1;
     uint emitter = wave->primitive[i];
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0)
       choice = emission_numbers(emission + wave->flux_rg[i], choice, &u, &v);
-    if (HAS(EFFECT_AIMED_PHOTONS)) share = aim(cells, projection_square(emitter, params.emitter_count), random.z, &u, &v);
+    if (HAS(EFFECT_AIMED_PHOTONS))
+      weight = aim(cells, projection_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
     Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
     flux = mul3(scale, flux);
-    if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(share, flux);
+    if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(weight, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
     PhotonState photon;
     photon.ray = ray, photon.flux = flux;
@@ -138,7 +139,7 @@ OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint coun
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
       PhotonState photon = stream_get(wave, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_interact(&scene, &params, stream, wave->depth[i], hit, &photon, &record);
+      events = photon_interact(&scene, &params, stream, wave->bounce[i], hit, &photon, &record);
       if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
       stream_put(wave, i, &photon);
       stream_put_record(wave, i, &record);
@@ -231,7 +232,7 @@ OUTLINE uint stream_paths(const Scene *scene, const Params *params, const Guide 
       stream_learn(scene, params, &wave, alive, aim);
     else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
       stream_deposit(alive, &wave, photons, params->photon_capacity, counters);
-    for (uint i = 0; i < alive; ++i) ++wave.depth[i];
+    for (uint i = 0; i < alive; ++i) ++wave.bounce[i];
     alive = stream_compact(0, alive, &wave);
   }
   return rays;

@@ -1,10 +1,11 @@
-// Emission that a camera path would see by the unlikely lobe of smooth glass or plastic: the highlights of lamps, and
-// skies, in glass balls and on coating. Left to chance, one path in twenty-five brings all of it, and pictures sparkle
-// for thousands of passes. So at its first vertices, as long as all of them were smooth, the path looks along the lobe
-// that it is unlikely to take, and what that shows counts by the lobe's probability; from there on the look follows the
-// likely lobes, to the first surface that is no perfect mirror or glass. The path itself then counts no emission that a
-// look has counted: what it meets after such a lobe by likely ones alone. Every way to a lamp is so counted once, by the
-// look at its last unlikely lobe or, where the path does not look, by the path.
+// Emission that a camera path would see by the unlikely lobe of smooth glass or coated diffuse: the
+// highlights of emitters, and skies, in glass balls and on coated surfaces. Left to chance, one path in
+// twenty-five brings all of it, and pictures sparkle for thousands of passes. So at its first vertices, as
+// long as all of them were smooth, the path looks along the lobe that it is unlikely to take, and what that
+// shows counts by the lobe's probability; from there on the look follows the likely lobes, to the first
+// surface that is no perfect mirror or glass. The path itself then counts no emission that a look has
+// counted: what it meets after such a lobe by likely ones alone. Every way to an emitter is so counted once,
+// by the look at its last unlikely lobe or, where the path does not look, by the path.
 #include "lights/direct.cl"
 #include "film/light_passes.cl"
 
@@ -23,8 +24,9 @@ INLINE bool is_smooth(const Bsdf *bsdf, uint kind) { return bsdf->kind == kind &
 // Adds what lies at the end of the lobe that lobe_number draws at `surface`, and of the likely lobes from there on.
 // `carried` is the path's throughput times the probability of that lobe.
 OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
-                             real3 branch_throughput, Interior interior, const Boundary *at, RandomStream stream, uint depth,
-                             uint max_depth, Radiance *radiance, uint *rays, volatile global Counters *counters) {
+                             real3 branch_throughput, Interior interior, const Boundary *at, RandomStream stream,
+                             uint bounce, uint max_depth, Radiance *radiance, uint *rays,
+                             volatile global Counters *counters) {
   Bsdf bsdf = *lobe;
   Surface surface = *from;
   Boundary boundary;
@@ -37,7 +39,7 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
       interior = interior_after(interior, scene->materials + surface.material, &surface, next.direction);
     ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
     ray.direction = next.direction;
-    ++depth;
+    ++bounce;
     Hit hit = hit_none(INFINITY);
     ++*rays;
     bool did_hit = media_closest(scene, &boundary.media, ray, &hit);
@@ -55,16 +57,16 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
       branch_throughput *= interior_transmittance(interior, hit.t);
     }
     radiance_add(radiance, PREFIX_NO_DIFFUSE, branch_throughput * emission_at(material, &surface, ray.direction));
-    if (depth == max_depth) return;
+    if (bounce == max_depth) return;
     bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     // Which decides whether a lobe is smooth.
-    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf,
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &branch_throughput);
     if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
     // What absorbing glass reflects to and fro is not worth following for long.
     real survival = fmin(1000 * max_component(branch_throughput), (real)1);
-    if (random_at(stream, depth, DIM_BRANCH).x >= survival) return;
+    if (random_at(stream, bounce, DIM_BRANCH).x >= survival) return;
     branch_throughput /= survival;
     if (HAS(EFFECT_GLASS) && bsdf.kind == MATERIAL_GLASS) {
       real reflectance = glass_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
@@ -76,17 +78,18 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
 
 // Looks along the unlikely lobe at a vertex of a camera path, before the path chooses its own by `lobe_number`.
 // `counted` is whether looks have counted the emission that the path has ahead, as it comes to the vertex; returns
-// whether they have as it leaves. After a vertex of plastic that became diffuse it is of no meaning.
+// whether they have as it leaves. After a vertex of coated diffuse that became Lambert it is of no meaning.
 INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Ray ray, real lobe_number,
                        real3 throughput, Interior interior, const Boundary *boundary, uint prefix,
-                       RandomStream stream, uint depth, uint max_depth, bool counted, Radiance *radiance, uint *rays, volatile global Counters *counters) {
+                       RandomStream stream, uint bounce, uint max_depth, bool counted, Radiance *radiance, uint *rays,
+                       volatile global Counters *counters) {
   bool glass = HAS(EFFECT_GLASS) && is_smooth(bsdf, MATERIAL_GLASS);
   bool plastic = HAS(EFFECT_PLASTIC) && is_smooth(bsdf, MATERIAL_PLASTIC);
   if (!glass && !plastic) return counted && bsdf_is_specular(bsdf);
   // In a medium the look would be a path of its own, which may be scattered.
-  bool looks = scene->emission_met && prefix == PREFIX_NO_DIFFUSE && depth < SPLITTING_VERTICES;
+  bool looks = scene->emission_met && prefix == PREFIX_NO_DIFFUSE && bounce < SPLITTING_VERTICES;
   if (HAS(EFFECT_MEDIUM) && max_component(scene->medium.extinction) > 0) looks = false;
-  // The coat of plastic is looked along, likely or not, and weighs what it reflects.
+  // The boundary of coated diffuse is looked along, likely or not, and weighs what it reflects.
   real probability = 1, toward = 0;
   bool taken = true;
   Bsdf lobe = *bsdf;
@@ -99,7 +102,7 @@ INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surf
     taken = (lobe_number < reflectance) == reflects;
   }
   if (looks && probability > 0)
-    trace_unlikely_branch(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream, depth,
-                    max_depth, radiance, rays, counters);
+    trace_unlikely_branch(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream,
+                          bounce, max_depth, radiance, rays, counters);
   return taken ? looks : counted;
 }

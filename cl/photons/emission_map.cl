@@ -1,9 +1,10 @@
 // Photons that start where the useful ones do. How a photon starts is decided by a few random numbers: a point of the unit
-// cube. Where few photons land near what the camera sees, as from a lamp whose light comes through a gap, or of which a
-// part alone shines into the room, the useful ones start in a small part of that cube. Before the first pass pilot paths tell
-// which: the cube is cut into cells, the host says how likely each is, and flux is divided by the density, so that the
-// picture keeps its expectation. It is importance sampling in the space of random numbers (as Guo et al., "Primary Sample
-// Space Path Guiding", EGSR 2018), of emission alone, so that no kind of light needs a map of its own.
+// cube. Where few photons land near what the camera sees, as from an emitter whose light comes through a gap,
+// or of which a part alone shines into the room, the useful ones start in a small part of that cube. Before
+// the first pass pilot paths tell which: the cube is cut into cells, the host says how likely each is, and
+// flux is divided by the density, so that the picture keeps its expectation. It is importance sampling in the
+// space of random numbers (as Guo et al., "Primary Sample Space Path Guiding", EGSR 2018), of emission alone,
+// so that no kind of light needs a map of its own.
 #include "core/prelude.cl"
 #include "shared/types.h"
 

@@ -1,5 +1,5 @@
-// Camera paths that have come to a diffuse surface, in a batch: their visible points, and light that comes there straight
-// from the lamps, by loops over them which PoCL's compiler turns into vector code (see vector.cl and photon_stream.cl).
+// Camera paths that have come to a diffuse surface, in a batch: their visible points, and direct light there,
+// by loops over them which PoCL's compiler turns into vector code (see vector.cl and photon_stream.cl).
 #include "photons/kernel_area.cl"
 #include "lights/direct.cl"
 #include "photons/grid.cl"
@@ -27,7 +27,7 @@ typedef struct {
   uint primitive[STREAM_CAPACITY];  // as in Hit
   real throughput[3][STREAM_CAPACITY], radiance[3][STREAM_CAPACITY];
   uint counted[STREAM_CAPACITY];  // whether the emission there is, by path_splitting.cl
-  uint depth[STREAM_CAPACITY];    // of the vertex
+  uint bounce[STREAM_CAPACITY];   // of the vertex
   uint pixel[STREAM_CAPACITY], sample[STREAM_CAPACITY];  // of the path
 
   real position[3][STREAM_CAPACITY], error[STREAM_CAPACITY];  // as in Surface
@@ -52,13 +52,13 @@ INLINE Ray diffuse_vertex_ray(const DiffuseVertices *r, uint i) {
 
 // Makes path i one that meets a diffuse surface at `hit`.
 INLINE void diffuse_vertices_put(DiffuseVertices *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
-                          real3 radiance, uint depth, bool counted) {
+                          real3 radiance, uint bounce, bool counted) {
   r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
   r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
   r->t[i] = hit.t, r->u[i] = hit.u, r->v[i] = hit.v, r->primitive[i] = hit.primitive;
   r->throughput[0][i] = throughput.x, r->throughput[1][i] = throughput.y, r->throughput[2][i] = throughput.z;
   r->radiance[0][i] = radiance.x, r->radiance[1][i] = radiance.y, r->radiance[2][i] = radiance.z;
-  r->counted[i] = counted, r->depth[i] = depth, r->pixel[i] = pixel, r->sample[i] = sample;
+  r->counted[i] = counted, r->bounce[i] = bounce, r->pixel[i] = pixel, r->sample[i] = sample;
 }
 
 // Makes path i that before it once more.
@@ -70,7 +70,7 @@ INLINE void diffuse_vertices_repeat(DiffuseVertices *r, uint i) {
     r->radiance[k][i] = r->radiance[k][i - 1];
   }
   r->t[i] = r->t[i - 1], r->u[i] = r->u[i - 1], r->v[i] = r->v[i - 1], r->primitive[i] = r->primitive[i - 1];
-  r->counted[i] = r->counted[i - 1], r->depth[i] = r->depth[i - 1];
+  r->counted[i] = r->counted[i - 1], r->bounce[i] = r->bounce[i - 1];
   r->pixel[i] = r->pixel[i - 1], r->sample[i] = r->sample[i - 1];
 }
 
@@ -94,7 +94,7 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
 
   Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
   real3 weight = scaled3(INV_PI, mul3(throughput, bsdf.color));
-  weight = choose3(r->depth[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
+  weight = choose3(r->bounce[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
   real3 p = surface.position, n = facing_normal(&surface, ray.direction), g = surface.geometric_normal;
   g = scaled3(dot3(g, ray.direction) < 0 ? 1 : -1, g);
   r->position[0][i] = p.x, r->position[1][i] = p.y, r->position[2][i] = p.z, r->error[i] = surface.error;
@@ -103,7 +103,7 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
   r->weight[0][i] = weight.x, r->weight[1][i] = weight.y, r->weight[2][i] = weight.z;
   r->normal[i] = normal_pack(g);
   PathSampler sampler = diffuse_vertex_sampler(params, r, i, sobol);
-  real4 random = path_random4_soa(&sampler, dimension_at(r->depth[i], DIM_LIGHT));
+  real4 random = path_random4_soa(&sampler, dimension_at(r->bounce[i], DIM_LIGHT));
   r->random[0][i] = random.x, r->random[1][i] = random.y, r->random[2][i] = random.z, r->random[3][i] = random.w;
 }
 
@@ -195,7 +195,7 @@ OUTLINE uint diffuse_vertices_probe(const Scene *scene, const Params *params, ui
     Hit hit = {0, r->primitive[i], r->u[i], r->v[i], 0};
     r->normal[i] |= kernel_area_probe(scene, hit, (real3)(r->position[0][i], r->position[1][i], r->position[2][i]),
                                    (real3)(r->side[0][i], r->side[1][i], r->side[2][i]), radius * radius,
-                                   path_random_at(&sampler, r->depth[i], DIM_KERNEL_AREA), &rays, counters);
+                                   path_random_at(&sampler, r->bounce[i], DIM_KERNEL_AREA), &rays, counters);
   }
   return rays;
 }

@@ -15,7 +15,7 @@ typedef struct {
 // LIGHT_PASS_* of a photon's word of blue flux.
 INLINE uint photon_light_pass(uint flux_b) { return flux_b >> PHOTON_LIGHT_PASS_SHIFT; }
 
-// The same by lanes of eight photons, which the ranges of a search share.
+// The same by lanes of eight photons, which the ranges of a search have in common.
 typedef struct {
   uint8 red, green, blue, near_red, near_green, near_blue;
   uint8 direct_red, direct_green, direct_blue, caustic_red, caustic_green, caustic_blue;
@@ -150,12 +150,12 @@ typedef struct {
   real g;            // of the phase function
 } MediumSegment;
 
-// The phase function as a share of its peak is counted in this many parts, so that sums in the medium are exact too.
+// The phase function as a fraction of its peak is counted in so many parts, so that sums in the medium are exact.
 #define PHASE_UNIT 16777216.0f
 
 // A random number in [0, 1) that is the same wherever a photon of direction `packed` is met at distance `along`: by it
-// shares are rounded, since far from the peak of the phase function they are a few parts or less.
-INLINE real share_dither(uint packed, real along) {
+// weights are rounded, since far from the peak of the phase function they are a few parts or less.
+INLINE real weight_dither(uint packed, real along) {
   uint hash = (packed ^ as_uint((float)along)) * 2654435769u;
   hash = (hash ^ (hash >> 15)) * 2246822519u;
   return (real)(hash >> 8) / 16777216;
@@ -177,8 +177,8 @@ INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, ui
     d -= along * segment->direction;
     real distance2 = dot(d, d);
     if (!(distance2 <= radius2) || !(along >= segment->from) || !(along < segment->to)) continue;
-    real share = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
-    real3 weight = share * transmittance(segment->extinction, along) * PHASE_UNIT + share_dither(packed, along);
+    real phase = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
+    real3 weight = phase * transmittance(segment->extinction, along) * PHASE_UNIT + weight_dither(packed, along);
     uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
     ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
     ulong blue = (ulong)weight.z * (HAS(OUTPUT_LIGHT_PASSES) ? b & 0xffffu : b);

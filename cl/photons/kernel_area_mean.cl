@@ -41,10 +41,10 @@ INLINE bool kernel_area_wanted(uint state, uint pixel, uint pass, bool in_turn) 
 // A full disc counts as one more probe, so that few of them do not say much.
 INLINE float kernel_area_mean(uint mean) { return (float)((mean >> 7u) + 1u) / (float)((mean & KERNEL_AREA_COUNT_MASK) + 1u); }
 
-// The part of a disc that is covered, for `share` times the radius that probes are of. What an edge takes from a disc goes
-// with its radius.
-INLINE float kernel_area_of(uint state, float share) {
+// The fraction of a disc that is covered, for `radius_ratio` times the radius that probes are of. What an
+// edge takes from a disc goes with its radius.
+INLINE float kernel_area_of(uint state, float radius_ratio) {
   float whole = kernel_area_mean(state & 0xffffu), half_radius = kernel_area_mean(state >> 16u);
-  float covered = half_radius + (whole - half_radius) * (2 * share - 1);
+  float covered = half_radius + (whole - half_radius) * (2 * radius_ratio - 1);
   return clamp(covered, KERNEL_AREA_LEAST, fmax(fmax(whole, half_radius), 1.0f));
 }

@@ -6,8 +6,8 @@
 //          seeds: they are spread evenly over all paths that do (each path is a point of the unit cube of its random
 //          numbers). They leave nothing there yet;
 //   copies repeat a seed with slightly mutated numbers. Each is a step of Metropolis et al. from its seed: where it lands
-//          in a marked cell too, it is accepted, with a share 1 / copies of the seed's flux;
-//   seeds  are then traced again, with the share of the copies that were not accepted.
+//          in a marked cell too, it is accepted, with 1 / copies of the seed's flux;
+//   seeds  are then traced again, with the flux of the copies that were not accepted.
 // Since a seed is itself drawn from what the step leaves as it is, every accepted copy is too: there is no start to wait
 // for, no constant to estimate, and passes are independent, so that their spread tells the error. The marks decide how
 // noisy the picture is, and nothing else. Radii shrink as if copies were photons like others: sooner than by seeds alone.
@@ -27,11 +27,11 @@ typedef struct {
   uint emission_cells;
 } Guide;
 
-// Of photon number `number` of a launch: its path, which copy it is, its place in the list of seeds, and its share of
-// the flux.
+// Of photon number `number` of a launch: its path, which copy it is, its place in the list of seeds, and the
+// weight of its flux.
 typedef struct {
   uint path, copy, fresh, seed;
-  real share;
+  real weight;
 } PhotonStart;
 
 INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint number) {
@@ -45,8 +45,8 @@ INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint n
   start.path = seed.x;
   start.fresh = DIM_BOUNCE_FIRST + seed.y * DIM_BOUNCE_STRIDE;
   if (params->photon_mutations == 0) return start;
-  uint shares = copies ? 1 : params->photon_mutations - guide->accepted[start.seed];
-  start.share = (real)shares / params->photon_mutations;
+  uint parts = copies ? 1 : params->photon_mutations - guide->accepted[start.seed];
+  start.weight = (real)parts / params->photon_mutations;
   return start;
 }
 
@@ -67,7 +67,7 @@ OUTLINE void stream_guide(const Guide *guide, const Params *params, uint count, 
     wave->useful[i] = pilot_paths ? 2 : 1;  // 2: not in the list yet
     seeds += pilot_paths ? 1 : 0;
     if (params->photon_role != PHOTONS_MUTATED_PATHS) continue;
-    if (guide->seeds[wave->seed[i]].y == wave->depth[i])
+    if (guide->seeds[wave->seed[i]].y == wave->bounce[i])
       atomic_inc(guide->accepted + wave->seed[i]);
     else
       wave->events[i] = 0;
@@ -76,7 +76,7 @@ OUTLINE void stream_guide(const Guide *guide, const Params *params, uint count, 
   uint slot = list_reserve(seeds, &counters->seeds);
   for (uint i = 0; i < count; ++i) {
     if (wave->useful[i] != 2) continue;
-    guide->seeds[slot++] = (uint2)(wave->index[i], wave->depth[i]);
+    guide->seeds[slot++] = (uint2)(wave->index[i], wave->bounce[i]);
     wave->useful[i] = 1;
   }
 }

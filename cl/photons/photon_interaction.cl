@@ -1,4 +1,4 @@
-// What befalls a photon: its record where it lands, and how it goes on from there or ends.
+// What a photon does at a surface or in the medium: the record that it deposits, and how it goes on or ends.
 #include "materials/adjoint_bsdf.cl"
 #include "lights/direct.cl"
 #include "lights/horizon.cl"
@@ -34,21 +34,21 @@ INLINE uint photon_record(real3 position, uint normal, real3 flux, uint prefix, 
 }
 
 // Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
-INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint bounce, Hit hit,
                              bool shadow_rays, PhotonState *photon, Photon *record, uint *events) {
   if (!medium_along(scene, photon->ray, hit, hit.primitive != HIT_NONE, photon->interior)) return false;
   real before = max_component(photon->flux), distance;
-  if (!medium_flight(&scene->medium, hit.t, random_at(stream, depth, DIM_MEDIUM).xy, &photon->flux, &distance))
+  if (!medium_flight(&scene->medium, hit.t, random_at(stream, bounce, DIM_MEDIUM).xy, &photon->flux, &distance))
     return false;
   photon->flux *= scene->medium.scattering;
   photon->ray.origin += distance * photon->ray.direction;
   *events = 0;
-  if (!(shadow_rays && depth == 0))
+  if (!(shadow_rays && bounce == 0))
     *events = photon_record(photon->ray.origin, direction_pack(photon->ray.direction), photon->flux, photon->prefix,
-                            random_at(stream, depth, DIM_QUANTISE), record);
-  real4 random = random_at(stream, depth, DIM_BSDF);
+                            random_at(stream, bounce, DIM_QUANTISE), record);
+  real4 random = random_at(stream, bounce, DIM_BSDF);
   real survival = fmin(max_component(photon->flux) / before, (real)1);
-  if (depth + 1 == params->max_depth || random.w >= survival) return true;
+  if (bounce + 1 == params->max_depth || random.w >= survival) return true;
   photon->flux /= survival;
   photon->ray.direction = phase_sample(scene->medium.g, photon->ray.direction, random.xy);
   photon->prefix = prefix_after(photon->prefix, false);
@@ -69,13 +69,14 @@ INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 d
   }
 }
 
-// Takes a photon from its hit number `depth` to its next ray. Returns EVENT_* bits; what `photon` and `record` hold
-// where these say that it ends, or leaves no record, is of no use. Without a medium only where something is hit.
-INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStream stream, uint depth, Hit hit,
+// Takes a photon from its hit number `bounce` to its next ray. Returns EVENT_* bits; what `photon` and
+// `record` hold where these say that it ends, or leaves no record, is of no use. Without a medium only where
+// something is hit.
+INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStream stream, uint bounce, Hit hit,
                          PhotonState *photon, Photon *record) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
-  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, depth, hit, shadow_rays, photon, record, &events))
+  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, bounce, hit, shadow_rays, photon, record, &events))
     return events;
   if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
   real3 direction = photon->ray.direction;
@@ -94,11 +95,11 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   }
   if (nested(scene)) {
     if (interface.crosses)
-      media_bsdf(scene, &interface, &surface, direction, random_at(stream, depth, DIM_CHANNEL).x, &bsdf, &photon->flux);
+      media_bsdf(scene, &interface, &surface, direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf, &photon->flux);
   } else if (HAS(EFFECT_DISPERSION))
-    disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, depth, DIM_CHANNEL).x, &photon->flux);
+    disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, bounce, DIM_CHANNEL).x, &photon->flux);
   real3 flux = photon->flux, n = facing_normal(&surface, direction);
-  real4 random = random_at(stream, depth, DIM_BSDF);
+  real4 random = random_at(stream, bounce, DIM_BSDF);
   real before = max_component(flux);
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
     if (!nested(scene)) photon->interior = interior_before(photon->interior, material, &surface, direction);
@@ -108,8 +109,8 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
-  bool counted = shadow_rays && depth == 0, far = is_far(&scene->geometry, hit, surface.position);
-  if (far && depth == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
+  bool counted = shadow_rays && bounce == 0, far = is_far(&scene->geometry, hit, surface.position);
+  if (far && bounce == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
   if (HAS(EFFECT_HORIZON)) photon->mark &= ~FROM_BEYOND;
   bool deposits_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) deposits_here = deposits_here && !counted;
@@ -118,10 +119,10 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
     if (plastic) deposited *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
     uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, deposited,
-                                photon->prefix, random_at(stream, depth, DIM_QUANTISE), record);
+                                photon->prefix, random_at(stream, bounce, DIM_QUANTISE), record);
     events |= counted ? EVENT_DEPOSITED_ELSEWHERE : stored;
   }
-  bool alive = !(diffuse && black) && depth + 1 != params->max_depth;
+  bool alive = !(diffuse && black) && bounce + 1 != params->max_depth;
   if (!VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) && !alive) return events;
 
   if (plastic) plastic_choose(&bsdf, direction, n, random.z);

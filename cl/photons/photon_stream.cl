@@ -50,7 +50,7 @@ typedef struct {
 typedef struct {
   real origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], flux[3][STREAM_CAPACITY];
   uint index[STREAM_CAPACITY];      // of the photon's path in its pass
-  uint depth[STREAM_CAPACITY];      // events that lie behind it
+  uint bounce[STREAM_CAPACITY];     // events that lie behind it
   uint mark[STREAM_CAPACITY];       // INDIRECT_PHOTON, or 0
   uint primitive[STREAM_CAPACITY];  // as in Hit
   real t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
@@ -108,7 +108,7 @@ INLINE void stream_move(PhotonStream *wave, uint from, uint to) {
     wave->flux[k][to] = wave->flux[k][from];
   }
   wave->index[to] = wave->index[from];
-  wave->depth[to] = wave->depth[from];
+  wave->bounce[to] = wave->bounce[from];
   wave->mark[to] = wave->mark[from];
   if (HAS(OUTPUT_LIGHT_PASSES)) wave->prefix[to] = wave->prefix[from];
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[to] = wave->interior[from];

@@ -25,12 +25,12 @@ INLINE uint projection_square(uint emitter, uint emitters) {
 INLINE uint projection_cell(real u, real v) { return (uint)(v * PROJECTION_SIDE) * PROJECTION_SIDE + (uint)(u * PROJECTION_SIDE); }
 
 // Moves (*u, *v), uniform numbers, to where in the square that begins with cell `square` a photon leaves by: their place
-// within the cell stays, and the third number draws the cell. Returns its share of the flux.
+// within the cell stays, and the third number draws the cell. Returns the weight of its flux.
 INLINE real aim(global const ProjectionCell *cells, uint square, real third, real *u, real *v) {
   real across = *u * PROJECTION_SIDE, up = *v * PROJECTION_SIDE;
   uint column = (uint)across, row = (uint)up, cell = row * PROJECTION_SIDE + column;
   uint chosen = third < cells[square + cell].stay ? cell : cells[square + cell].other;
   *u = (chosen % PROJECTION_SIDE + (across - column)) / PROJECTION_SIDE;
   *v = (chosen / PROJECTION_SIDE + (up - row)) / PROJECTION_SIDE;
-  return cells[square + chosen].share;
+  return cells[square + chosen].weight;
 }

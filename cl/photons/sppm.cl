@@ -24,15 +24,15 @@ INLINE SppmPixel sppm_count(SppmPixel pixel, uint found) {
 INLINE SppmPixel sppm_update(SppmPixel pixel, uint found, float alpha) {
   if (found == 0) return pixel;
   float m = (float)found, before = sppm_photons(pixel), total = alpha * before + m;
-  float share = (1 - alpha) * m / total;
-  if (share > 0.5f) {
+  float fraction = (1 - alpha) * m / total;
+  if (fraction > 0.5f) {
     // The first passes, alpha small: what remains is the smaller part, so it is what must be rounded.
     float kept = alpha * (before + m) / total;
     pixel.radius2_hi *= kept;
     pixel.radius2_lo *= kept;
   } else {
-    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_lo);
-    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -share * pixel.radius2_hi);
+    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -fraction * pixel.radius2_lo);
+    sum_add(&pixel.radius2_hi, &pixel.radius2_lo, -fraction * pixel.radius2_hi);
   }
   // Some devices flush what is smaller than the smallest normal number to a radius of zero, which would divide.
   if (!(pixel.radius2_hi >= FLT_MIN)) {

@@ -8,7 +8,7 @@
 #define FLUX_SUM_SHIFT 6u
 
 // Less than this, of what the pixel has, may be missing untold.
-#define UNKNOWN_SHARE 0.01f
+#define UNKNOWN_FRACTION 0.01f
 
 // The sums of a cell: one of each way along an axis that a surface may face, and one of the medium.
 #define FACINGS 7u
@@ -58,7 +58,7 @@ kernel void find_unknown(global const VisiblePoint *points, global const SppmPix
   }
   float passes = params.pass + 1 - film[index].left_out;
   float mean = luminance(film[index].sum[0], film[index].sum[1], film[index].sum[2]) / fmax(passes, 1.0f);
-  film[index].unknown = light > UNKNOWN_SHARE * mean ? 1u : 0u;
+  film[index].unknown = light > UNKNOWN_FRACTION * mean ? 1u : 0u;
 }
 
 // Tells it of every pixel: for a picture that has found no photon at all.

@@ -112,8 +112,8 @@ INLINE bool wall_crossed(global const Wall *wall, real3 a, real3 b, real slack) 
   before = fabs(before);
   if (after >= slack) return false;
   if (type == WALL_PLANE) return true;
-  real share = clamp(before / fmax(before - after, (real)FLT_MIN), (real)0, (real)1);
-  real3 p = from + share * (to - from);
+  real fraction = clamp(before / fmax(before - after, (real)FLT_MIN), (real)0, (real)1);
+  real3 p = from + fraction * (to - from);
   if (type == WALL_DISK) return length(p) <= wall->normal.w + slack;
   bool inside = true;
   if (type == WALL_PARALLELOGRAM) {

@@ -56,9 +56,9 @@ INLINE real4 uniform4(uint4 bits) {
                  (int)(bits.w >> 8u) * unit);
 }
 
-// The dimension of the vertex with index `depth` (from 0) of a path.
-INLINE uint dimension_at(uint depth, uint dimension) {
-  return DIM_BOUNCE_FIRST + depth * DIM_BOUNCE_STRIDE + dimension;
+// The dimension of the vertex with index `bounce` (from 0) of a path.
+INLINE uint dimension_at(uint bounce, uint dimension) {
+  return DIM_BOUNCE_FIRST + bounce * DIM_BOUNCE_STRIDE + dimension;
 }
 
 // Four independent uniform numbers in [0, 1) for a dimension of dims.h.
@@ -68,7 +68,7 @@ INLINE real4 random4(RandomStream stream, uint dimension) {
   return uniform4(bits);
 }
 
-// The same for the vertex with index `depth` (from 0) of a path.
-INLINE real4 random_at(RandomStream stream, uint depth, uint dimension) {
-  return random4(stream, dimension_at(depth, dimension));
+// The same for the vertex with index `bounce` (from 0) of a path.
+INLINE real4 random_at(RandomStream stream, uint bounce, uint dimension) {
+  return random4(stream, dimension_at(bounce, dimension));
 }

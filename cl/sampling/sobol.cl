@@ -82,7 +82,7 @@ INLINE real4 path_random4_soa(const PathSampler *sampler, uint dimension) {
   return uniform4((uint4)(points.x ^ shift.x, points.y ^ shift.y, points.z ^ shift.z, points.w ^ shift.w));
 }
 
-// The same for the vertex with index `depth` (from 0).
-INLINE real4 path_random_at(const PathSampler *sampler, uint depth, uint dimension) {
-  return path_random4(sampler, dimension_at(depth, dimension));
+// The same for the vertex with index `bounce` (from 0).
+INLINE real4 path_random_at(const PathSampler *sampler, uint bounce, uint dimension) {
+  return path_random4(sampler, dimension_at(bounce, dimension));
 }

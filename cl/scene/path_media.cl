@@ -1,4 +1,4 @@
-// The media along a path in scenes whose dielectrics touch, overlap, or hold the camera or lamps (EFFECT_NESTED).
+// The media along a path where dielectrics touch, overlap, or hold the camera or emitters (EFFECT_NESTED).
 //
 // Camera paths, photons and looks along unlikely lobes keep one PathMedia each: media_closest() finds what comes next,
 // media_arrive() what that is where several surfaces lie at one place, media_bsdf() the index there, media_depart() where
@@ -184,15 +184,15 @@ INLINE bool cover_ahead(const Scene *scene, const PathMedia *media, real3 positi
   return dot3(surface.geometric_normal, direction) < 0;
 }
 
-// Takes a path on from `surface`, which it met at `hit` along `arriving`, in the direction `leaving`; returns its origin.
+// Takes a path that met `surface` at `hit` along `wi` on in the direction `wo`; returns its origin.
 INLINE real3 media_depart(const Scene *scene, const Interface *interface, const Surface *surface, Hit hit,
-                          real3 wi, real3 leaving, PathMedia *media) {
+                          real3 wi, real3 wo, PathMedia *media) {
   real3 g = surface->geometric_normal;
-  bool through = dot3(wi, g) * dot3(leaving, g) > 0;
+  bool through = dot3(wi, g) * dot3(wo, g) > 0;
   uint from = media->contact;
   media->contact = CONTACT_NONE;
   if (from == CONTACT_FLOOR) {
-    if (cover_ahead(scene, media, surface->position, leaving)) media->contact = CONTACT_COVER;
+    if (cover_ahead(scene, media, surface->position, wo)) media->contact = CONTACT_COVER;
   } else if (from == CONTACT_COVER) {
     if (through) media->stack = media->covered;
     else media->contact = media->floor == HIT_NONE ? CONTACT_NONE : CONTACT_FLOOR;
@@ -203,7 +203,7 @@ INLINE real3 media_depart(const Scene *scene, const Interface *interface, const 
   } else {
     media->stack = interface->behind;
     real3 n = interface->floor_normal;
-    if (interface->floor && dot3(wi, n) * dot3(leaving, n) > 0) {
+    if (interface->floor && dot3(wi, n) * dot3(wo, n) > 0) {
       media->contact = CONTACT_FLOOR;
       media->covered = interface->before;
       Hit floor = interface->floor_hit;
@@ -212,7 +212,7 @@ INLINE real3 media_depart(const Scene *scene, const Interface *interface, const 
     }
   }
   if (media->contact != CONTACT_NONE) return surface->position;
-  return offset_origin(surface->position, surface->error, g, leaving);
+  return offset_origin(surface->position, surface->error, g, wo);
 }
 
 // Where a camera path is: its media and what it meets at its vertex. With the functions below all camera paths do the same
@@ -260,9 +260,9 @@ INLINE Interior boundary_behind(const Scene *scene, const Boundary *boundary) {
   return nested(scene) ? interior_of_stack(scene, &boundary->interface.behind) : interior_none();
 }
 
-// The origin of the ray that leaves the vertex in the direction `leaving`.
+// The origin of the ray that leaves the vertex in the direction `wo`.
 INLINE real3 boundary_depart(const Scene *scene, Boundary *boundary, const Surface *surface, real3 wi,
-                             real3 leaving) {
-  if (!nested(scene)) return offset_origin(surface->position, surface->error, surface->geometric_normal, leaving);
-  return media_depart(scene, &boundary->interface, surface, boundary->hit, wi, leaving, &boundary->media);
+                             real3 wo) {
+  if (!nested(scene)) return offset_origin(surface->position, surface->error, surface->geometric_normal, wo);
+  return media_depart(scene, &boundary->interface, surface, boundary->hit, wi, wo, &boundary->media);
 }

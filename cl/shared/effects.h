@@ -14,7 +14,7 @@
 #define EFFECT_LENS (1u << 8)        // a lens of non-zero radius
 #define EFFECT_SHADOW_RAYS (1u << 9) // direct light by shadow rays
 
-#define EFFECT_ROUGH (1u << 10)      // glass, conductors or plastic with roughness
+#define EFFECT_ROUGH (1u << 10)      // glass, conductors or coated diffuse with roughness
 #define EFFECT_CONDUCTOR (1u << 11)
 #define EFFECT_PLASTIC (1u << 12)
 
@@ -33,7 +33,7 @@
 #define EFFECT_SMOOTH (1u << 21)   // triangles with shading normals
 #define EFFECT_SLIVERS (1u << 22)  // triangles too thin for the cross product of their edges
 
-#define EFFECT_NESTED (1u << 23)   // dielectrics that touch, overlap, or hold the camera or lamps
+#define EFFECT_NESTED (1u << 23)   // dielectrics that touch, overlap, or hold the camera or emitters
 #define EFFECT_WALLS (1u << 24)    // surfaces that may part photons from visible points
 
 #define EFFECT_HORIZON (1u << 25)  // light from beyond the scene on infinite planes

@@ -35,7 +35,7 @@ typedef struct {
   float photon_flux;         // flux of the largest channel of one emitted photon
   uint photon_count;         // emitted by this launch
   uint photon_capacity;      // stored at most
-  float alpha;               // share of the new photons that the radius update keeps
+  float alpha;               // fraction of the new photons that the radius update keeps
   float radius2;             // squared radius of every pixel; 0: each pixel has its own (SppmPixel)
   float inverse_wavelength2[3];  // 1 / wavelength^2 in um^-2 that each channel stands for in this pass
   float segment;             // length of the pieces of camera rays in the medium around which photons are gathered:
@@ -71,7 +71,7 @@ CHECK_SIZE(Params, 304);
 typedef struct {
   float stay;   // the probability that numbers which fall into it keep it
   uint other;   // where they go else: a cell of the same square
-  float share;  // of the flux that a photon would have, for one that leaves by this cell
+  float weight;  // factor of the flux of a photon that leaves by this cell
 } ProjectionCell;
 CHECK_SIZE(ProjectionCell, 12);
 
@@ -82,7 +82,7 @@ CHECK_SIZE(ProjectionCell, 12);
 typedef struct {
   float low[START_NUMBERS], size[START_NUMBERS];
   uint end;     // this cell and all before it own the random numbers below end, of EMISSION_NUMBERS
-  float share;  // of the flux that a photon would have, for one that starts in the cell
+  float weight;  // factor of the flux of a photon that starts in the cell
 } EmissionCell;
 CHECK_SIZE(EmissionCell, 48);
 

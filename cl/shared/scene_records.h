@@ -150,7 +150,7 @@ typedef struct {
   float4 a, b, c;
   float4 radiance;    // point, spot: intensity; directional: irradiance; environment: integral over all directions
   ulong cdf;          // how many numbers this emitter and all before it own; the last one's are all
-  float probability;  // the share of the numbers that it owns
+  float probability;  // the fraction of the numbers that it owns
   uint type;          // EMITTER_TRIANGLE ...
   uint two_sided;
   uint shape;         // EMITTER_BEZIER: index into shapes; EMITTER_ENVIRONMENT: width of the map
@@ -162,7 +162,7 @@ CHECK_SIZE(Emitter, 96);
 // A texel of the environment's map of latitude and longitude, rows from the bottom (straight down) to the top.
 typedef struct {
   float radiance[3];
-  float density;      // the share of the environment's numbers that it owns, times the number of texels
+  float density;      // the fraction of the environment's numbers that it owns, times the number of texels
   ulong cdf;          // how many of these numbers this texel and all before it own
 } EnvironmentTexel;
 CHECK_SIZE(EnvironmentTexel, 24);

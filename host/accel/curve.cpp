@@ -277,7 +277,8 @@ std::vector<float> curve_area_table(const CurvePoints& points, int segments) {
   }
   std::vector<float> table{static_cast<float>(segments),
                            static_cast<float>(2 * std::numbers::pi * total / (segments * steps))};
-  // Multiples of 2^-24, as the random numbers that choose a segment: its share is then exactly what is drawn.
+  // Multiples of 2^-24, as the random numbers that choose a segment: its probability is then exactly what is
+  // drawn.
   for (double sum : sums)
     table.push_back(total > 0 ? static_cast<float>(std::round(sum / total * 0x1p24) * 0x1p-24) : 1.0f);
   table.back() = 1;

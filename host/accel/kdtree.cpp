@@ -27,9 +27,9 @@ void choose_collapse(BinaryNode& node) {
   const auto& right = *node.child[1];
   const auto distribute = [&](unsigned children) {
     float best = std::numeric_limits<float>::max();
-    for (unsigned share = 1; share < children; ++share) {
-      const float cost = left.cost[share - 1] + right.cost[children - share - 1];
-      if (cost < best) best = cost, node.left_share[children - 1] = static_cast<std::uint8_t>(share);
+    for (unsigned on_left = 1; on_left < children; ++on_left) {
+      const float cost = left.cost[on_left - 1] + right.cost[children - on_left - 1];
+      if (cost < best) best = cost, node.left_children[children - 1] = static_cast<std::uint8_t>(on_left);
     }
     return best;
   };
@@ -40,7 +40,7 @@ void choose_collapse(BinaryNode& node) {
     node.cost[children - 1] = distribute(children);
     if (node.cost[children - 1] >= node.cost[children - 2]) {
       node.cost[children - 1] = node.cost[children - 2];
-      node.left_share[children - 1] = 0;
+      node.left_children[children - 1] = 0;
     }
   }
 }
@@ -94,18 +94,18 @@ class WideBuilder {
 
   bool is_leaf(const BinaryNode* node) const { return by_level_ ? node->leaf() : node->as_leaf; }
 
-  // The binary nodes that become children of the wide node made of `node`.
-  void children_of(const BinaryNode* node, unsigned share, std::vector<const BinaryNode*>& out) const {
+  // The binary nodes, at most `count`, that become children of the wide node made of `node`.
+  void children_of(const BinaryNode* node, unsigned count, std::vector<const BinaryNode*>& out) const {
     if (by_level_) {
-      if (share == 1 || node->leaf()) return out.push_back(node);
-      for (const auto* child : node->child) children_of(child, share / 2, out);
+      if (count == 1 || node->leaf()) return out.push_back(node);
+      for (const auto* child : node->child) children_of(child, count / 2, out);
       return;
     }
-    while (share > 1 && node->left_share[share - 1] == 0) --share;
-    if (share == 1) return out.push_back(node);
-    const unsigned left = node->left_share[share - 1];
+    while (count > 1 && node->left_children[count - 1] == 0) --count;
+    if (count == 1) return out.push_back(node);
+    const unsigned left = node->left_children[count - 1];
     children_of(node->child[0], left, out);
-    children_of(node->child[1], share - left, out);
+    children_of(node->child[1], count - left, out);
   }
 
   void emit(const BinaryNode* node, uint index, unsigned level) {

@@ -21,7 +21,7 @@ struct BinaryNode {
   // The collapse to wide nodes: cost[i - 1] of covering the node by at most i children of one wide node, and
   // how many of them the left half gets (0: as with i - 1).
   std::array<float, 8> cost;
-  std::array<std::uint8_t, 8> left_share{};
+  std::array<std::uint8_t, 8> left_children{};
   bool as_leaf = true;  // whether one child that covers the node is a leaf
 
   bool leaf() const { return child[0] == nullptr; }

@@ -14,8 +14,8 @@ std::vector<PixelError> errors_of(const Picture& picture);
 
 struct Calibration {
   double estimated = 0;  // the picture's error by its channels, at `confidence`
-  // The share of pixels that are off by less than their own bound at `confidence`, of those that are off or
-  // might be: a black background is no merit.
+  // The fraction of pixels that are off by less than their own bound at `confidence`, of those that are off
+  // or might be: a black background is no merit.
   double covered = 0;
 };
 

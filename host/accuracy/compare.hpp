@@ -26,7 +26,7 @@ struct Comparison {
 /// mean((a - b)^2) over all channels, over the square of b's mean.
 double relative_mse(const Picture& a, const Picture& b);
 
-/// The relative error that the share `q` of the pixels stays under: the quantile over pixels of
+/// The relative error that the fraction `q` of the pixels stays under: the quantile over pixels of
 /// |a - b| / max(b, 0.1 mean(b)), all of luminance. The floor keeps black pixels from counting as infinitely
 /// wrong. Pixels that are not finite count as such.
 double relative_error_quantile(const Picture& a, const Picture& b, double q);

@@ -9,7 +9,7 @@
 namespace causticl {
 namespace {
 
-constexpr double dark = 0.1;  // pixels below this share of the mean luminance are judged against it
+constexpr double dark = 0.1;  // pixels below this fraction of the mean luminance are judged against it
 
 struct RelativeError {
   double half_difference, noise, bias;
@@ -30,9 +30,9 @@ std::vector<RelativeError> relative_errors(const std::vector<PixelError>& pixels
   return errors;
 }
 
-/// What a share of the pixels is off by at most, where the noise that was drawn, times `noise`, adds to their
-/// bias, times `bias`. Which of the two has which sign is not known: both cases count.
-double drawn_bound(const std::vector<RelativeError>& errors, double share, double noise, double bias) {
+/// What a fraction of the pixels is off by at most, where the noise that was drawn, times `noise`, adds to
+/// their bias, times `bias`. Which of the two has which sign is not known: both cases count.
+double drawn_bound(const std::vector<RelativeError>& errors, double fraction, double noise, double bias) {
   std::vector<double> sizes;
   sizes.reserve(2 * errors.size());
   for (const auto& error : errors)
@@ -41,14 +41,14 @@ double drawn_bound(const std::vector<RelativeError>& errors, double share, doubl
                           ? std::fabs(noise * error.half_difference + sign * bias * error.bias)
                           : INFINITY);
   const auto rank =
-      std::min(static_cast<std::size_t>(share * static_cast<double>(sizes.size())), sizes.size() - 1);
+      std::min(static_cast<std::size_t>(fraction * static_cast<double>(sizes.size())), sizes.size() - 1);
   const auto bound = sizes.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(sizes.begin(), bound, sizes.end());
   return *bound;
 }
 
 /// The probability that a number, normally distributed, is x standard deviations above its mean or more. In
-/// single precision, which is a third of the time: shares are asked for to a thousandth.
+/// single precision, which is a third of the time: fractions are asked for to a thousandth.
 double above(double x) { return 0.5 * std::erfc(static_cast<float>(x / std::numbers::sqrt2)); }
 
 /// The probability that a normally distributed number is off by less than `bound` from what is off by `bias`.
@@ -75,13 +75,13 @@ double inverse(const Function& function, double wanted) {
 }
 
 /// As drawn_bound() of noise alone, were it normally distributed: less exact, but smoother from look to look.
-double normal_bound(const std::vector<RelativeError>& errors, double share) {
-  const auto share_below = [&](double bound) {
+double normal_bound(const std::vector<RelativeError>& errors, double fraction) {
+  const auto fraction_below = [&](double bound) {
     double sum = 0;
     for (const auto& error : errors) sum += probability_below(error.noise, 0, bound);
     return sum / static_cast<double>(errors.size());
   };
-  return inverse(share_below, share);
+  return inverse(fraction_below, fraction);
 }
 
 }  // namespace

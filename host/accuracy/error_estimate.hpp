@@ -10,14 +10,15 @@
 
 namespace causticl {
 
-/// The relative error that a share `confidence` of the pixels stays below, against
+/// The relative error that a fraction `confidence` of the pixels stays below, against
 ///   max(luminance, a tenth of the picture's mean luminance),
 /// since no eye sees a relative error in the dark.
 struct PictureError {
   double error = 0;  // of noise and bias together
   double noise = 0;  // as if there were no bias
   double bias = 0;   // as if there were no noise
-  // Pixels whose error cannot be told (PixelError::bias is infinite), as a share of all: they count as wrong.
+  // Pixels whose error cannot be told (PixelError::bias is infinite), as a fraction of all: they count as
+  // wrong.
   double unknown = 0;
 };
 

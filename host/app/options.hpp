@@ -27,7 +27,7 @@ struct Options {
   std::optional<int> passes, samples;
   std::optional<std::int64_t> photons;
   std::optional<double> time_limit;    // seconds
-  std::optional<double> wanted_error;  // a share
+  std::optional<double> wanted_error;  // a fraction
   double confidence = 0.9;
   bool layers = false;
   std::uint32_t seed = 1;

@@ -63,14 +63,14 @@ std::string clock_time(double seconds) {
   return formatted("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string percentage(double share) {
-  if (!std::isfinite(share)) return "unknown";
-  const double percent = 100 * share;
+std::string percentage(double fraction) {
+  if (!std::isfinite(fraction)) return "unknown";
+  const double percent = 100 * fraction;
   return formatted("%.*f%%", percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0, percent);
 }
 
-std::string unknown_text(double share) {
-  return percentage(share) +
+std::string unknown_text(double fraction) {
+  return percentage(fraction) +
          " of the pixels found no photon yet, though photons are stored around what they see: their error is "
          "unknown and counts as wrong; more passes, more photons or a larger renderer.radius find some";
 }

@@ -16,10 +16,10 @@ std::string si_number(double value);
 std::string clock_time(double seconds);
 
 /// "0.34%", "5.3%", "12%" for 0.00341, 0.053, 0.123.
-std::string percentage(double share);
+std::string percentage(double fraction);
 
-/// What the user should know where the error of such a share of the pixels is unknown.
-std::string unknown_text(double share);
+/// What the user should know where the error of such a fraction of the pixels is unknown.
+std::string unknown_text(double fraction);
 
 /// "pass 3/64, 0:07 elapsed, 2:20 left, error 5.3%, half of it in 9:40, 1.2 M photons/s, 9.8 M rays/s", or
 /// "pass 12, error 6.1% → 2%, about 0:40 left, 0:07 elapsed, ..." where an error alone ends the render, in at

@@ -119,10 +119,10 @@ std::string statistics_table(const Statistics& s) {
     append(text, "  %-28s %llu\n", "  stored in the last pass", Number(s.stored_photons));
     if (s.seeds)
       append(text, "  %-28s %.2g%% of the pilot paths land where the camera sees; %s\n", "  guided",
-             100 * s.seeds->share,
-             s.seeds->copies      ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
-             : s.seeds->share > 0 ? "too many to copy: most passes are as without"
-                                  : "nothing to copy");
+             100 * s.seeds->fraction,
+             s.seeds->copies         ? (std::to_string(s.seeds->copies) + " copies of each").c_str()
+             : s.seeds->fraction > 0 ? "too many to copy: most passes are as without"
+                                     : "nothing to copy");
     append(text, "  %-28s %g (%s)\n", "first radius", s.first_radius,
            s.first_radius_chosen ? "chosen from the scene" : "of the scene file");
   }
@@ -189,7 +189,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"programs", passes},
                                    {"kernels", milliseconds},
                                    {"kernel_launches", launches}};
-  if (s.seeds) object["guided"] = {{"share", s.seeds->share}, {"copies", s.seeds->copies}};
+  if (s.seeds) object["guided"] = {{"share", s.seeds->fraction}, {"copies", s.seeds->copies}};
   if (s.error) {
     object["error"] = s.error->error;
     object["error_noise"] = s.error->noise;

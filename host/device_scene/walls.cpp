@@ -14,7 +14,7 @@ constexpr double most_cells = 128;
 
 /// Of the radius: how far from a visible point a path to a photon may run (WALL_OVER_HEIGHT of
 /// cl/photons/walls.cl), and some.
-constexpr double reach_share = 1.4;
+constexpr double reach_ratio = 1.4;
 
 /// Cells near more primitives than this are judged by normals: all alike are one surface, else all are walls.
 constexpr std::size_t most_pairs = 32;
@@ -34,7 +34,7 @@ struct Cell {
 class WallGridBuilder {
  public:
   WallGridBuilder(std::vector<WallPrimitive> primitives, double radius)
-      : primitives_(std::move(primitives)), reach_(reach_share * radius) {
+      : primitives_(std::move(primitives)), reach_(reach_ratio * radius) {
     place_grid(radius);
   }
 

@@ -15,15 +15,15 @@
 namespace causticl {
 
 /// What one of several devices does of every pass: of n things those from first_of(n) up to end_of(n).
-struct Share {
+struct PassFraction {
   double begin = 0, end = 1;
   std::size_t first_of(std::size_t n) const { return part(begin, n); }
   std::size_t end_of(std::size_t n) const { return part(end, n); }
   std::size_t count_of(std::size_t n) const { return end_of(n) - first_of(n); }
 
  private:
-  static std::size_t part(double share, std::size_t n) {
-    return static_cast<std::size_t>(share * static_cast<double>(n));
+  static std::size_t part(double fraction, std::size_t n) {
+    return static_cast<std::size_t>(fraction * static_cast<double>(n));
   }
 };
 
@@ -35,12 +35,12 @@ class PassIntegrator {
   /// Enqueues pass number `pass` (from 0). Passes run in order.
   virtual void enqueue_pass(std::uint32_t pass) = 0;
 
-  /// From now on, only this share of the pixels and photons of a pass.
-  void set_share(Share share) { share_ = share; }
+  /// From now on, only this fraction of the pixels and photons of a pass.
+  void set_fraction(PassFraction fraction) { fraction_ = fraction; }
 
   /// Where several devices share the passes, that part of a pass on which the others wait: tracing the
-  /// share's photons. Waits for the device.
-  virtual void trace_share(std::uint32_t) {}
+  /// own photons. Waits for the device.
+  virtual void trace_own_photons(std::uint32_t) {}
   /// The records of these photons.
   virtual std::vector<std::byte> photons() { return {}; }
   /// Puts those of all devices in their place.
@@ -66,7 +66,7 @@ class PassIntegrator {
 
  protected:
   using Clock = std::chrono::steady_clock;
-  Share share_;
+  PassFraction fraction_;
   Clock::time_point began_;
   double early_seconds_ = 0;
 };

@@ -32,8 +32,8 @@ void PathTracer::enqueue_pass(std::uint32_t pass) {
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);
   set_scene_arguments(trace_paths_, device_scene_);
-  const std::size_t end = share_.end_of(film_.pixels());
-  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_) {
+  const std::size_t end = fraction_.end_of(film_.pixels());
+  for (std::size_t first = fraction_.first_of(film_.pixels()); first < end; first += chunk_) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk_, end - first));
     primary_hits_.launch(device_, device_scene_, primary_hit_buffer_, params_, 1);

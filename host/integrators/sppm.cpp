@@ -19,7 +19,7 @@ static_assert(sizeof(PrimaryHit) == sizeof(VisiblePoint));
 /// Of the scene's half extent: the length of the pieces of camera rays in the medium around which photons are
 /// gathered. Longer ones find more photons, in a time that grows with them: of 0.05, 0.3 and 1 this one has
 /// the smallest error at equal time in scenes/effects/fog.json.
-constexpr double segment_share = 0.3;
+constexpr double segment_fraction = 0.3;
 
 }  // namespace
 
@@ -103,8 +103,8 @@ void Sppm::start_pass(std::uint32_t pass) {
 void Sppm::trace_photons(std::uint32_t pass) {
   const auto emission = guide_.emission(pass);
   params_.photon_role = emission.role;
-  params_.first_photon = static_cast<uint>(share_.first_of(emission.photons));
-  params_.photon_count = static_cast<uint>(share_.count_of(emission.photons));
+  params_.first_photon = static_cast<uint>(fraction_.first_of(emission.photons));
+  params_.photon_count = static_cast<uint>(fraction_.count_of(emission.photons));
   params_.photon_flux = static_cast<float>(std::numbers::pi * device_scene_.emitted_power / emission.photons);
   if (with_photons_) totals_.update(photon_map_.trace(params_));
 }
@@ -124,7 +124,7 @@ const cl::Buffer& Sppm::visible_points() {
 /// Segments may have any length: those of a small radius are cut shorter, so that they cross few cubes.
 float Sppm::segment(double radius) const {
   return static_cast<float>(
-      std::min(segment_share * length_scale(device_scene_), MOST_SEGMENT_STEPS * 4 * radius));
+      std::min(segment_fraction * length_scale(device_scene_), MOST_SEGMENT_STEPS * 4 * radius));
 }
 
 /// Those of the chunk that `params` tells.
@@ -172,8 +172,8 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   if (look_for_unknown) unknown_.begin(photon_map_.records_buffer(), photon_map_.stored());
 
   const cl::Buffer& points = visible_points();
-  const std::size_t end = share_.end_of(film_.pixels());
-  for (std::size_t first = share_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
+  const std::size_t end = fraction_.end_of(film_.pixels());
+  for (std::size_t first = fraction_.first_of(film_.pixels()); first < end; first += chunk_pixels_) {
     params_.first_pixel = static_cast<uint>(first);
     params_.pixel_count = static_cast<uint>(std::min(chunk_pixels_, end - first));
     trace_visible_points(points, params_);
@@ -183,7 +183,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
     guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
     if (look_for_unknown) unknown_.find(points, pixels_, film_.buffer(), params_);
   }
-  if (look_for_unknown) unknown_.finish(film_.buffer(), share_.first_of(film_.pixels()), end);
+  if (look_for_unknown) unknown_.finish(film_.buffer(), fraction_.first_of(film_.pixels()), end);
   advance_schedule(pass);
 }
 

@@ -23,7 +23,7 @@ class Sppm : public PassIntegrator {
        std::uint32_t seed, bool with_photons, const Pilot* pilot);
 
   void enqueue_pass(std::uint32_t pass) override;
-  void trace_share(std::uint32_t pass) override { start_pass(pass); }
+  void trace_own_photons(std::uint32_t pass) override { start_pass(pass); }
   std::vector<std::byte> photons() override { return photon_map_.records(); }
   void set_photons(const std::vector<std::vector<std::byte>>& photons) override {
     photon_map_.set_records(photons);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint longest_side = 64;  // pixels of the coarse picture
 
-// Photons are guided where fewer than this share of the plain ones land near what the camera sees, and where
-// that makes them this many times as many.
+// Photons are guided where fewer than this fraction of the plain ones land near what the camera sees, and
+// where that makes them this many times as many.
 constexpr double worth_guiding = 1.0 / 16, worthwhile_gain = 2;
 
 // With fewer photons a pass than this, learning where they should start would take longer than the render.
@@ -29,16 +29,16 @@ constexpr std::uint32_t beyond_passes = 0xffffff00;  // random numbers of their 
 constexpr std::size_t fewest_useful = 64;
 constexpr std::uint32_t most_batches = 8;
 
-// Cells around points in view, by which the use of photons is told, are as wide as this share of the room:
+// Cells around points in view, by which the use of photons is told, are as wide as this fraction of the room:
 // about as far as the points of the coarse picture lie apart.
 constexpr double visible_cell_fraction = 1.0 / 24;
 constexpr uint visible_cells_across = 128;  // cells: five times the room
 
-/// Which share of the photons that start by a map are of use.
+/// Which fraction of the photons that start by a map are of use.
 struct Useful {
   double by_number = 0;
-  // The share of photons of equal flux whose sums vary as little: a map that its samples fit too well makes
-  // many photons useful that bring little, and leaves much flux to the few that start elsewhere (Kong's
+  // The fraction of photons of equal flux whose sums vary as little: a map that its samples fit too well
+  // makes many photons useful that bring little, and leaves much flux to the few that start elsewhere (Kong's
   // effective sample size).
   double by_variance = 0;
 };
@@ -49,9 +49,9 @@ Useful useful_by(const std::vector<EmissionCell>& map, std::vector<StartNumbers>
   std::sort(useful.begin(), useful.end());
   double sum = 0, squares = 0;
   for (const auto& numbers : useful) {
-    const double share = emission_share(map, numbers);
-    sum += share;
-    squares += share * share;
+    const double weight = emission_map_weight(map, numbers);
+    sum += weight;
+    squares += weight * weight;
   }
   return {static_cast<double>(useful.size()) / traced, squares > 0 ? sum * sum / squares / traced : 0};
 }
@@ -118,7 +118,7 @@ Surroundings Sppm::look_around(const cl::Buffer& points, const Params& params) {
 /// the room allows is not looked for.
 void Sppm::choose_first_radius(const cl::Buffer& points, Params params, Pilot& pilot) {
   constexpr double wanted = 12;
-  const double largest = largest_radius_share * pilot.around.room;
+  const double largest = largest_radius_fraction * pilot.around.room;
   double radius = std::clamp(0.01 * device_scene_.extent, 0.01 * largest, largest);
   cl::Kernel count_around = programs_.kernel("gather", "count_around");
   const cl::Buffer counts = device_.buffer(params.pixel_count * sizeof(cl_uint), "photon counts");

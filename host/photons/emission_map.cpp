@@ -7,7 +7,7 @@
 namespace causticl {
 namespace {
 
-constexpr double guided_share = 0.75;     // of photons that the map draws; the others start evenly
+constexpr double guided_fraction = 0.75;  // of photons that the map draws; the others start evenly
 constexpr std::size_t most_cells = 2048;  // of the numbers of 24 bits, thousands for each
 constexpr std::size_t fewest_useful = 4;  // in a cell that is cut
 constexpr std::size_t bins = 8;           // of the histogram by which a cut is chosen
@@ -96,7 +96,7 @@ std::vector<Box> boxes_of(std::vector<Sample>& samples) {
   return done;
 }
 
-/// Gives each cell its part of the random numbers, and its share of flux by what that is exactly.
+/// Gives each cell its part of the random numbers, and the weight of its flux by what that is exactly.
 std::vector<EmissionCell> with_numbers(const std::vector<Box>& boxes,
                                        const std::vector<double>& probabilities) {
   std::vector<EmissionCell> cells;
@@ -109,7 +109,7 @@ std::vector<EmissionCell> with_numbers(const std::vector<Box>& boxes,
     cell.end = i + 1 == boxes.size()
                    ? EMISSION_NUMBERS
                    : static_cast<uint>(std::floor(std::min(sum, 1.0) * spare)) + static_cast<uint>(i + 1);
-    cell.share = static_cast<float>(volume(cell) * EMISSION_NUMBERS / (cell.end - before));
+    cell.weight = static_cast<float>(volume(cell) * EMISSION_NUMBERS / (cell.end - before));
     before = cell.end;
     cells.push_back(cell);
   }
@@ -118,12 +118,12 @@ std::vector<EmissionCell> with_numbers(const std::vector<Box>& boxes,
 
 }  // namespace
 
-double emission_share(std::span<const EmissionCell> cells, const StartNumbers& numbers) {
+double emission_map_weight(std::span<const EmissionCell> cells, const StartNumbers& numbers) {
   for (const auto& cell : cells) {
     bool inside = true;
     for (std::size_t axis = 0; axis < START_NUMBERS && inside; ++axis)
       inside = numbers[axis] >= cell.low[axis] && numbers[axis] < cell.low[axis] + cell.size[axis];
-    if (inside) return cell.share;
+    if (inside) return cell.weight;
   }
   return 1;
 }
@@ -132,7 +132,7 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
                                        std::span<const EmissionCell> drawn_by) {
   std::vector<Sample> samples;
   samples.reserve(useful.size());
-  for (const auto& numbers : useful) samples.push_back({numbers, emission_share(drawn_by, numbers)});
+  for (const auto& numbers : useful) samples.push_back({numbers, emission_map_weight(drawn_by, numbers)});
   // In an order that execution does not give, for sums of the same bits.
   std::sort(samples.begin(), samples.end(),
             [](const Sample& a, const Sample& b) { return a.numbers < b.numbers; });
@@ -150,7 +150,7 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double even = volume(boxes[i].cell);
     const double wanted = masses > 0 ? 0.5 * (mass[i] / masses + deviation[i] / deviations) : even;
-    probabilities.push_back((1 - guided_share) * even + guided_share * wanted);
+    probabilities.push_back((1 - guided_fraction) * even + guided_fraction * wanted);
   }
   return with_numbers(boxes, probabilities);
 }

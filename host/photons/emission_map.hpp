@@ -23,6 +23,6 @@ std::vector<EmissionCell> emission_map(std::span<const StartNumbers> useful, std
                                        std::span<const EmissionCell> drawn_by);
 
 /// The flux of a photon that starts at `numbers`, relative to one without a map.
-double emission_share(std::span<const EmissionCell> cells, const StartNumbers& numbers);
+double emission_map_weight(std::span<const EmissionCell> cells, const StartNumbers& numbers);
 
 }  // namespace causticl

@@ -8,7 +8,7 @@ namespace causticl {
 /// What became of the pilot paths of Metropolis photons in the last pass that had any: see
 /// cl/photons/metropolis_photons.cl.
 struct MetropolisStatistics {
-  double share = 0;  // of the pilot paths, that landed where the camera sees
+  double fraction = 0;  // of the pilot paths, that landed where the camera sees
   std::uint32_t copies = 0;
 };
 

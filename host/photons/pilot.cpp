@@ -14,11 +14,11 @@ std::string formatted(const char* format, Arguments... arguments) {
   return text;
 }
 
-/// The number below which a share of `values` lies.
+/// The number below which a fraction of `values` lies.
 template <typename T>
-double quantile(std::vector<T> values, double share) {
+double quantile(std::vector<T> values, double fraction) {
   const auto rank =
-      std::min(static_cast<std::size_t>(share * static_cast<double>(values.size())), values.size() - 1);
+      std::min(static_cast<std::size_t>(fraction * static_cast<double>(values.size())), values.size() - 1);
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), place, values.end());
   return *place;
@@ -57,11 +57,11 @@ std::vector<std::string> pilot_lines(const Pilot& pilot, const RendererSpec& ren
     std::string why = "within which the median point in view finds a dozen photons";
     if (!pilot.photons_found)
       why = formatted("%g of the room of %.3g: no photon of the pilot landed near what the camera sees",
-                      largest_radius_share, pilot.around.room);
+                      largest_radius_fraction, pilot.around.room);
     else if (pilot.radius_at_limit)
       why = formatted(
           "%g of the room of %.3g: few photons land in view, and a larger one would blur more than it finds",
-          largest_radius_share, pilot.around.room);
+          largest_radius_fraction, pilot.around.room);
     lines.push_back(formatted("first radius %.4g, chosen from the scene: %s (renderer.radius sets it)",
                               pilot.first_radius, why.c_str()));
   }

@@ -25,17 +25,17 @@ struct Surroundings {
 /// nothing, it is what the camera sees of it.
 Surroundings surroundings_of(std::span<const Vec3> points, std::span<const float> distances);
 
-/// No first radius is larger than this share of the room: within it photons of one wall pass for light of
+/// No first radius is larger than this fraction of the room: within it photons of one wall pass for light of
 /// another, and light bends around corners.
-constexpr double largest_radius_share = 0.05;
+constexpr double largest_radius_fraction = 0.05;
 
 /// The radius within which a search looks that begins at `start`: see Sppm::choose_first_radius.
 struct Pilot {
   Surroundings around;
   double first_radius = 0;
-  bool radius_at_limit = false;  // larger ones would find more photons, but reach beyond the room's share
-  bool photons_found = true;     // by any point of the coarse picture
-  double useful = 1;             // of the photons, that land where the camera sees
+  bool radius_at_limit = false;        // larger ones would find more photons, but are too large for the room
+  bool photons_found = true;           // by any point of the coarse picture
+  double useful = 1;                   // of the photons, that land where the camera sees
   std::vector<EmissionCell> emission;  // by which photons start; empty: everywhere
   double useful_by_map = 0;            // the same with the map
   bool copies = false;                 // of useful photons: see metropolis_photons.hpp

@@ -7,8 +7,8 @@ namespace causticl {
 namespace {
 
 // Of all photons, those that are drawn where pilot paths became caustics. A tenth to a third are alike within
-// noise; larger shares take too much from all else (docs/performance-log.md).
-constexpr double aimed_share = 0.2;
+// noise; larger fractions take too much from all else (docs/performance-log.md).
+constexpr double aimed_fraction = 0.2;
 
 // As many as a pass has photons, within limits: a few hundred must land in the cells of a caustic, and a pass
 // of millions need not be taken twice.
@@ -37,7 +37,7 @@ std::vector<double> blurred(std::span<const cl_uint> deposited) {
 
 }  // namespace
 
-std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited, double share) {
+std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited, double fraction) {
   const auto wanted = blurred(deposited);
   const double sum = std::accumulate(wanted.begin(), wanted.end(), 0.0);
   std::vector<ProjectionCell> cells(deposited.size());
@@ -45,7 +45,7 @@ std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited,
       deposited.size());  // of the probability of a cell, times their number, not yet placed
   std::vector<cl_uint> below, above;
   for (cl_uint i = 0; i < cells.size(); ++i) {
-    left[i] = sum > 0 ? 1 - share + share * wanted[i] / sum * static_cast<double>(cells.size()) : 1;
+    left[i] = sum > 0 ? 1 - fraction + fraction * wanted[i] / sum * static_cast<double>(cells.size()) : 1;
     cells[i] = {1, i, static_cast<float>(1 / left[i])};
     (left[i] < 1 ? below : above).push_back(i);
   }
@@ -77,7 +77,7 @@ void ProjectionMap::learn() {
   std::vector<ProjectionCell> cells;
   for (std::size_t square = 0; square < squares_; ++square) {
     const auto one =
-        projection_cells({deposited.data() + square * cells_of_square, cells_of_square}, aimed_share);
+        projection_cells({deposited.data() + square * cells_of_square, cells_of_square}, aimed_fraction);
     cells.insert(cells.end(), one.begin(), one.end());
   }
   cells_ = device_.upload(cells, "aim of photons");

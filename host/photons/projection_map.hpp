@@ -11,9 +11,9 @@
 namespace causticl {
 
 /// The cells of one square of which the pilot paths that became parts of caustics left by `landed[cell]`: a
-/// cell is drawn as often as a square without aim would, times 1 - share, plus `share` in proportion to what
-/// landed in it and in the cells beside. Where nothing landed there is no aim.
-std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited, double share);
+/// cell is drawn as often as a square without aim would, times 1 - fraction, plus `fraction` in proportion to
+/// what landed in it and in the cells beside. Where nothing landed there is no aim.
+std::vector<ProjectionCell> projection_cells(std::span<const cl_uint> deposited, double fraction);
 
 class ProjectionMap {
  public:

@@ -3,7 +3,7 @@
 namespace causticl {
 namespace {
 
-constexpr std::size_t look_pixels = 2048;     // a share of so many is right to two thirds of a percent
+constexpr std::size_t look_pixels = 2048;     // a fraction of so many is right to two thirds of a percent
 constexpr std::size_t measure_pixels = 4096;  // and of so many to half of one
 
 ErrorRates expected_rates(const RendererSpec& renderer) {

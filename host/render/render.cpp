@@ -207,7 +207,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     const double elapsed = seconds_since(start);
     const double this_pass = seconds_since(pass_start) + (pass == 0 ? integrator->early_seconds() : 0);
     if (pass == 0) statistics.first_pass_done_seconds = elapsed;
-    if (pass == 0 && several && notice) notice(several->shares_text());
+    if (pass == 0 && several && notice) notice(several->fractions_text());
     recent_pass = pass < 2 ? this_pass : std::max(last_pass, this_pass);
     last_pass = this_pass;
     const auto look_start = Clock::now();

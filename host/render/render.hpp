@@ -34,7 +34,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;    // files, by extension; rewritten at checkpoints
   std::optional<double> time_limit;    // seconds from the start of render_scene
   std::optional<double> wanted_error;  // stop at this estimated error of the picture
-  double confidence = 0.9;             // share of pixels that the error of the picture is to hold for
+  double confidence = 0.9;             // fraction of pixels that the error of the picture is to hold for
   bool layers = false;                 // also its layers direct, caustic and indirect, as channels
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
@@ -93,7 +93,7 @@ struct Statistics {
   std::uint64_t passes = 0, photons = 0, rays = 0;
   std::optional<PictureError> error;           // estimated; none after a single pass and of a black picture
   std::optional<double> passes_to_half_error;  // further ones, estimated; none while the trend is not known
-  double confidence = 0.9;                     // share of pixels that `error` holds for
+  double confidence = 0.9;                     // fraction of pixels that `error` holds for
   double photons_per_second = 0, rays_per_second = 0;  // over the passes alone
   std::uint64_t triangles = 0, shapes = 0, skipped_triangles = 0, emitters = 0;
   std::uint64_t stored_photons = 0;           // in the last pass

@@ -55,7 +55,7 @@ std::map<std::string, KernelTime> RenderDevice::kernel_times() const {
 }
 
 SeveralDevices::SeveralDevices(const std::vector<std::unique_ptr<RenderDevice>>& devices)
-    : shares_(devices.size()) {
+    : fractions_(devices.size()) {
   for (const auto& device : devices) devices_.push_back(device.get());
   began_ = devices_[0]->integrator->began();
   early_seconds_ = devices_[0]->integrator->early_seconds();
@@ -68,10 +68,10 @@ void SeveralDevices::enqueue_pass(std::uint32_t pass) {
       d.integrator->enqueue_pass(0);
       d.device.queue().finish();
     });
-    share_out();
+    assign_fractions();
     return;
   }
-  for_each(devices_, [pass](RenderDevice& d) { d.integrator->trace_share(pass); });
+  for_each(devices_, [pass](RenderDevice& d) { d.integrator->trace_own_photons(pass); });
   std::vector<std::vector<std::byte>> photons;
   for (RenderDevice* d : devices_) photons.push_back(d->integrator->photons());
   for_each(devices_, [&](RenderDevice& d) {
@@ -82,7 +82,7 @@ void SeveralDevices::enqueue_pass(std::uint32_t pass) {
 }
 
 /// In proportion to the speed with which each device did the first pass.
-void SeveralDevices::share_out() {
+void SeveralDevices::assign_fractions() {
   std::vector<double> speeds;
   double all = 0;
   for (const RenderDevice* d : devices_) {
@@ -95,18 +95,18 @@ void SeveralDevices::share_out() {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
     sum += speeds[i];
     const double end = i + 1 == devices_.size() ? 1 : sum / all;
-    shares_[i] = {begin, end};
-    devices_[i]->integrator->set_share(shares_[i]);
+    fractions_[i] = {begin, end};
+    devices_[i]->integrator->set_fraction(fractions_[i]);
     begin = end;
   }
 }
 
-std::string SeveralDevices::shares_text() const {
+std::string SeveralDevices::fractions_text() const {
   std::string text = "each pass is shared:";
   for (std::size_t i = 0; i < devices_.size(); ++i) {
     char percent[32];
     std::snprintf(percent, sizeof percent, "%s %.0f%% on ", i ? "," : "",
-                  100 * (shares_[i].end - shares_[i].begin));
+                  100 * (fractions_[i].end - fractions_[i].begin));
     text += percent + devices_[i]->device.info().name;
   }
   return text;
@@ -129,8 +129,8 @@ std::vector<Channel> SeveralDevices::channels() {
     const auto its = devices_[i]->integrator->channels();
     for (std::size_t c = 0; c < channels.size(); ++c) {
       auto& values = channels[c].values;
-      const auto first = static_cast<std::ptrdiff_t>(shares_[i].first_of(values.size()));
-      const auto end = static_cast<std::ptrdiff_t>(shares_[i].end_of(values.size()));
+      const auto first = static_cast<std::ptrdiff_t>(fractions_[i].first_of(values.size()));
+      const auto end = static_cast<std::ptrdiff_t>(fractions_[i].end_of(values.size()));
       std::copy(its[c].values.begin() + first, its[c].values.begin() + end, values.begin() + first);
     }
   }
@@ -140,8 +140,8 @@ std::vector<Channel> SeveralDevices::channels() {
 void SeveralDevices::complete_film() {
   Film& whole = devices_[0]->film;
   for (std::size_t i = 1; i < devices_.size(); ++i)
-    whole.take_pixels(devices_[i]->film, shares_[i].first_of(whole.pixels()),
-                      shares_[i].count_of(whole.pixels()));
+    whole.take_pixels(devices_[i]->film, fractions_[i].first_of(whole.pixels()),
+                      fractions_[i].count_of(whole.pixels()));
 }
 
 }  // namespace causticl

@@ -52,13 +52,13 @@ class SeveralDevices : public PassIntegrator {
   double bytes_per_pixel() const override { return devices_[0]->integrator->bytes_per_pixel(); }
 
   /// "each pass is shared: 52% on NAME, 48% on NAME"; after the first pass.
-  std::string shares_text() const;
+  std::string fractions_text() const;
 
  private:
   std::vector<RenderDevice*> devices_;
-  std::vector<Share> shares_;
+  std::vector<PassFraction> fractions_;
 
-  void share_out();
+  void assign_fractions();
   void complete_film();
 };
 

@@ -1,4 +1,4 @@
-// Flat emitters that lie flush in another surface, as a lamp that is drawn on a ceiling.
+// Flat emitters that lie flush in another surface, as a panel of light in a ceiling.
 #pragma once
 
 #include "scene/scene.hpp"

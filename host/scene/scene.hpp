@@ -65,7 +65,7 @@ struct DeltaLight {
   Vec3 direction;       // spot: the axis of its cone; directional: of travel; unit
   Color intensity;      // directional: irradiance of a surface across it
   double angle = 0;     // spot: of the whole cone, from side to side, in degrees
-  double blend = 0;     // spot: share of the half angle over which it falls off
+  double blend = 0;     // spot: fraction of the half angle over which it falls off
 };
 
 /// Radiance from beyond the scene: a map of latitude and longitude, whose columns go around +y and whose

@@ -17,21 +17,21 @@ double lobe(double x, double mean, double below, double above) {
   return std::exp(-0.5 * t * t);
 }
 
-/// table[channel][i] = share of the channel's density below first_wavelength + i steps.
-using ShareTable = std::array<std::vector<double>, 3>;
+/// table[channel][i] = fraction of the channel's density below first_wavelength + i steps.
+using CdfTable = std::array<std::vector<double>, 3>;
 
-ShareTable make_shares() {
-  ShareTable shares;
+CdfTable make_cdfs() {
+  CdfTable cdfs;
   for (int channel = 0; channel < 3; ++channel) {
-    std::vector<double>& table = shares[static_cast<std::size_t>(channel)];
+    std::vector<double>& table = cdfs[static_cast<std::size_t>(channel)];
     table.assign(steps + 1, 0);
     for (int i = 0; i < steps; ++i)
       table[i + 1] =
           table[i] + channel_response(channel, first_wavelength +
                                                    (last_wavelength - first_wavelength) * (i + 0.5) / steps);
-    for (double& share : table) share /= table[steps];
+    for (double& value : table) value /= table[steps];
   }
-  return shares;
+  return cdfs;
 }
 
 }  // namespace
@@ -48,15 +48,15 @@ double channel_response(int channel, double wavelength) {
 }
 
 std::array<double, 3> channel_wavelengths(double u) {
-  static const ShareTable shares = make_shares();
+  static const CdfTable cdfs = make_cdfs();
   std::array<double, 3> wavelengths{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const auto& table = shares[channel];
+    const auto& table = cdfs[channel];
     const auto above = std::upper_bound(table.begin() + 1, table.end() - 1, u);
-    // No wavelengths of a share of 0 lie at either end: there any is right.
+    // No wavelengths of no density lie at either end: there any is right.
     const double low = *(above - 1), width = *above - low;
-    const double share = width > 0 ? std::clamp((u - low) / width, 0.0, 1.0) : 0;
-    const double step = static_cast<double>(above - 1 - table.begin()) + share;
+    const double fraction = width > 0 ? std::clamp((u - low) / width, 0.0, 1.0) : 0;
+    const double step = static_cast<double>(above - 1 - table.begin()) + fraction;
     wavelengths[channel] = first_wavelength + (last_wavelength - first_wavelength) * step / steps;
   }
   return wavelengths;

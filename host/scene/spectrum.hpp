@@ -12,7 +12,7 @@ namespace causticl {
 /// has the nearest colour that needs no negative light, and even light of all wavelengths is white.
 double channel_response(int channel, double wavelength);
 
-/// The wavelength in nm of each channel below which a share u in [0, 1] of its density lies.
+/// The wavelength in nm of each channel below which a fraction u in [0, 1] of its density lies.
 std::array<double, 3> channel_wavelengths(double u);
 
 /// The wavelengths of pass number `pass`: those of u = k (sqrt(2) - 1) + a start of the seed's own, modulo 1,

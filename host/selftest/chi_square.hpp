@@ -109,7 +109,7 @@ struct SquareBins {
   }
 };
 
-/// An angle as a share of a full turn, in [0, 1).
+/// An angle as a fraction of a full turn, in [0, 1).
 inline double turn(double y, double x) {
   const double angle = std::atan2(y, x) / (2 * M_PI);
   return angle < 0 ? angle + 1 : angle;

@@ -107,7 +107,7 @@ struct Lights : LitScene {
   /// 1 - cos x.
   static double drop(double x) { return 2 * std::sin(x / 2) * std::sin(x / 2); }
 
-  /// Share of a spot's intensity at an angle to its axis.
+  /// Fraction of a spot's intensity at an angle to its axis.
   static double falloff(const DeltaLight& light, double angle) {
     const double end = drop(outer(light)), even = drop(outer(light) * (1 - light.blend)), at = drop(angle);
     if (at <= even) return 1;
@@ -222,14 +222,14 @@ CheckResult photons(CheckContext& context) {
         const Vec3 local = Frame(light.direction).to_local(d), chord = d - light.direction;
         const double end = light.kind == DeltaLight::Kind::spot ? Lights::drop(Lights::outer(light)) : 2,
                      drop = dot(chord, chord) / 2;
-        double share = 1;
+        double weight = 1;
         if (light.kind == DeltaLight::Kind::spot) {
-          share = Lights::falloff(light, 2 * std::asin(std::sqrt(drop / 2))) * 2 * end *
-                  max_component(light.intensity) / lights.powers[index];
+          weight = Lights::falloff(light, 2 * std::asin(std::sqrt(drop / 2))) * 2 * end *
+                   max_component(light.intensity) / lights.powers[index];
           // The edge of the narrowest cone is a step.
-          if (light.blend == 0 && drop > 0.999 * end) share = max_component(flux);
+          if (light.blend == 0 && drop > 0.999 * end) weight = max_component(flux);
         }
-        const Vec3 expected = light.intensity * (share / max_component(light.intensity));
+        const Vec3 expected = light.intensity * (weight / max_component(light.intensity));
         const bool right = length(flux - expected) < 1e-3 && origin == light.position;
         to[index].add(right ? bins.bin(drop / end, turn(local.y, local.x), 1e-3) : bins.count());
       });

@@ -170,7 +170,7 @@ CheckResult environment_furnace(CheckContext& context) {
 }
 
 /// A coarse smooth torus of diffuse walls and, inside its tube, a smaller one of mirrors. The camera is in
-/// the tube or outside of it, and lamps are where it is not: the picture is black.
+/// the tube or outside of it, and emitters are where it is not: the picture is black.
 Scene dark_tube(bool camera_inside, Integrator integrator) {
   Scene scene;
   scene.max_depth = 12;

@@ -80,9 +80,9 @@ struct Sky : LitScene {
   std::size_t texel(int column, int row) const {
     return static_cast<std::size_t>(std::clamp(row, 0, height - 1) * width + (column + width) % width);
   }
-  /// The share of draws in the square of a texel: of a tent, 3/4 lie in its own and 1/8 in each of its
+  /// The probability of draws in the square of a texel: of a tent, 3/4 lie in its own and 1/8 in each of its
   /// neighbours.
-  double share(int column, int row) const {
+  double pmf(int column, int row) const {
     constexpr double part[] = {0.125, 0.75, 0.125};
     double sum = 0;
     for (int y = -1; y <= 1; ++y)
@@ -123,7 +123,7 @@ CheckResult directions(CheckContext& context) {
   for (int row = 0; row < Sky::height; ++row)
     for (int column = 0; column < Sky::width; ++column)
       histogram.probabilities[static_cast<std::size_t>(row) * Sky::width + static_cast<std::size_t>(column)] =
-          sky.share(column, row);
+          sky.pmf(column, row);
   SampleKernel<Drawn> draw(context, program(context), "draw_at_random", sky);
   return run_histogram_check(context, {histogram}, draw,
                              [&](const Drawn& drawn, std::uint64_t, std::vector<Histogram>& to) {
@@ -134,7 +134,7 @@ CheckResult directions(CheckContext& context) {
 }
 
 /// Radiance and both densities against interpolation in double. The density that integrates to the
-/// environment's share of all light is share * weight / total * texels / (2 pi^2 sine). A position is known
+/// environment's pmf is pmf * weight / total * texels / (2 pi^2 sine). A position is known
 /// to some roundings of 1, which is 3e-6 texels, of a slope that is at most the largest texel around.
 CheckResult densities(CheckContext& context) {
   const Sky sky(context.device);
@@ -143,7 +143,7 @@ CheckResult densities(CheckContext& context) {
   // The power over pi of the sphere of the scene, sqrt(3) in radius and a little more, and of the point
   // light.
   const double radius = 1.0001 * std::sqrt(3.0), distant = integral * radius * radius;
-  const double share = distant / (distant + 4 * 50);
+  const double pmf = distant / (distant + 4 * 50);
   CheckKernel kernel(context, program(context), "draw");
   kernel.with(sky);
   return run_random_check(
@@ -156,7 +156,7 @@ CheckResult densities(CheckContext& context) {
         const double sine = std::hypot(d.x, d.z);
         const auto weight = sky.interpolate(u, v, [&](std::size_t i) { return sky.weights[i]; });
         const double unit =
-            share / sky.total * (Sky::width * Sky::height) / (2 * std::numbers::pi * std::numbers::pi);
+            pmf / sky.total * (Sky::width * Sky::height) / (2 * std::numbers::pi * std::numbers::pi);
         double error = std::fabs(drawn.direction.w * sine / unit - weight.mixed) / weight.largest;
         error = std::max(error, std::fabs(drawn.found.w * sine / unit - weight.mixed) / weight.largest);
         const Vec3 found = to_vec3(drawn.found), drawn_radiance = to_vec3(drawn.weight) * drawn.direction.w;

@@ -79,7 +79,7 @@ CheckResult sort_and_gather(CheckContext& context) {
   return result;
 }
 
-/// Two lamps over a glass ball and one of paint on a large ball: caustics, several emitters, shadow
+/// Two emitters over a glass ball and one of paint on a large ball: caustics, several lights, shadow
 /// rays.
 Scene small_scene(std::uint64_t photons) {
   Scene scene;
@@ -101,16 +101,16 @@ Scene small_scene(std::uint64_t photons) {
     scene.materials.push_back(material);
     scene.objects.push_back(object);
   };
-  MaterialSpec paint, glass, lamp;
+  MaterialSpec paint, glass, emitter;
   paint.color = {0.8, 0.6, 0.4};
   glass.kind = MaterialSpec::Kind::glass;
-  lamp.color = {0, 0, 0};
-  lamp.emission = {20, 18, 15};
+  emitter.color = {0, 0, 0};
+  emitter.emission = {20, 18, 15};
   ball({0, -100, 0}, 100, paint);
   ball({-1.2, 0.8, 0}, 0.8, glass);
   ball({1.2, 0.8, 0}, 0.8, paint);
-  ball({0.5, 4, 1}, 0.3, lamp);
-  ball({-2, 3, 0}, 0.2, lamp);
+  ball({0.5, 4, 1}, 0.3, emitter);
+  ball({-2, 3, 0}, 0.2, emitter);
   return scene;
 }
 

@@ -59,7 +59,7 @@ enum Light { rectangle, disk, sphere, curve, light_count };
 constexpr Light light_of[] = {rectangle, rectangle, disk, sphere, curve};
 
 struct Lights : LitScene {
-  std::vector<double> step_ends;  // of the curve: the share of its area up to the end of each step in t
+  std::vector<double> step_ends;  // of the curve: the fraction of its area up to the end of each step in t
 
   explicit Lights(Device& device) {
     using Shape = Object::Shape;
@@ -125,8 +125,8 @@ struct Lights : LitScene {
     return low;
   }
   Vec3 local(Light light, Vec3 p) const { return scene.objects[light].transform.inverse().point(p); }
-  /// The share of power of a light.
-  double share(Light light) const {
+  /// The probability with which a light is chosen, in proportion to its power.
+  double pmf(Light light) const {
     const Object& object = scene.objects[light];
     double area = 1;
     if (light == disk) area = std::numbers::pi * object.radius * object.radius;
@@ -181,14 +181,14 @@ CheckResult points(CheckContext& context) {
 }
 
 /// Both densities, that of the sample and that of a ray which meets the light there, against the one that
-/// integrates to 1: the light's share of power over its area or cone, times distance^2 / cosine. A point is
+/// integrates to 1: the light's pmf over its area or cone, times distance^2 / cosine. A point is
 /// known to 1e-6 of its distance of 5; on a curve it moves by that over the cosine, the normal turns by as
 /// much again, and the density changes by that over the cosine: 1e-4 at the cosine of 0.2 from which it is
 /// compared.
 CheckResult densities(CheckContext& context) {
   const Lights lights(context.device);
-  double shares[light_count];
-  for (int light = 0; light < light_count; ++light) shares[light] = lights.share(static_cast<Light>(light));
+  double pmfs[light_count];
+  for (int light = 0; light < light_count; ++light) pmfs[light] = lights.pmf(static_cast<Light>(light));
   CheckKernel kernel(context, program(context), "draw");
   kernel.with(lights);
   return run_random_check(
@@ -199,7 +199,7 @@ CheckResult densities(CheckContext& context) {
         const Object& object = lights.scene.objects[light];
         const Vec3 point = to_vec3(drawn.point), p = lights.local(light, point);
         const double distance = length(point);
-        double density = shares[light];
+        double density = pmfs[light];
         if (light == sphere) {
           const double sine = object.radius / length(object.transform.translation);
           density /= 2 * std::numbers::pi * (1 - std::sqrt(1 - sine * sine));

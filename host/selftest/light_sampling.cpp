@@ -82,9 +82,9 @@ struct Numbers {
 };
 
 /// Half of the numbers are at the border of two lights, all of which are equally likely to be tried. The
-/// light that a number chooses must be the one that owns it, and its stated probability the share of numbers
-/// that it owns; that share is its share of power, but for the rounding of both ends to whole numbers. What
-/// is drawn is then what is stated. A running sum in single precision is off by 2^22 numbers.
+/// light that a number chooses must be the one that owns it, and its stated probability the fraction of
+/// numbers that it owns; that is its fraction of all power, but for the rounding of both ends to whole
+/// numbers. What is drawn is then what is stated. A running sum in single precision is off by 2^22 numbers.
 CheckResult exact_choice(CheckContext& context) {
   const ManyLights lights;
   const auto emitters = context.device.upload(lights.emitters, "emitters of a check");

@@ -93,8 +93,8 @@ CheckResult phase_function(CheckContext& context) {
       });
 }
 
-/// In coordinates in which the phase function is uniform: the share of light that is turned by less, and the
-/// turn about the axis.
+/// In coordinates in which the phase function is uniform: the fraction of light that is turned by less, and
+/// the turn about the axis.
 CheckResult scattered_directions(CheckContext& context) {
   constexpr SquareBins bins{16, 16};
   constexpr double g = 0.75;
@@ -166,11 +166,11 @@ constexpr const char* dispersion_source = R"(
 #include "materials/dispersion.cl"
 typedef struct {
   float throughput[3], random, b;
-} Arriving;
+} DispersionInput;
 typedef struct {
   float throughput[3], ior;
-} Leaving;
-kernel void bend(global const Arriving *in, global Leaving *out, uint count, global Material *materials,
+} DispersionOutput;
+kernel void bend(global const DispersionInput *in, global DispersionOutput *out, uint count, global Material *materials,
                  float4 inverse_wavelength2) {
   uint i = get_global_id(0);
   if (i >= count) return;
@@ -185,10 +185,10 @@ kernel void bend(global const Arriving *in, global Leaving *out, uint count, glo
 }
 )";
 
-struct Arriving {
+struct DispersionInput {
   float throughput[3], random, b;
 };
-struct Leaving {
+struct DispersionOutput {
   float throughput[3], ior;
 };
 
@@ -201,14 +201,14 @@ CheckResult dispersion(CheckContext& context) {
   return run_random_check(
       context, 4e-7, "relative",
       [](InputRandom& random, std::uint64_t index) {
-        Arriving in;
+        DispersionInput in;
         for (float& value : in.throughput) value = random.below(4) ? random.uniform24() : 0;
         in.random = random.uniform24();
         in.b = index % 8 ? static_cast<float>(random.scale(-4, -1)) : 0;
         return in;
       },
-      [&](const auto& inputs) { return kernel.run<Leaving>(inputs); },
-      [&](const Arriving& in, const Leaving& out) {
+      [&](const auto& inputs) { return kernel.run<DispersionOutput>(inputs); },
+      [&](const DispersionInput& in, const DispersionOutput& out) {
         const double one = in.throughput[0], two = one + in.throughput[1], sum = two + in.throughput[2];
         if (!(in.b > 0) || !(sum > 0)) {
           const bool kept = std::equal(in.throughput, in.throughput + 3, out.throughput) && out.ior == 1.5f;

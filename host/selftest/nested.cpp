@@ -44,7 +44,7 @@ Scene sky_of_one() {
 }
 
 /// Six arrangements beside each other: boxes that share a face; boxes that overlap; a ball in a ball in a
-/// box, the last of index 1; tangent balls; a thin coat; a ball on a mirror. With `turned` the other way
+/// box, the last of index 1; tangent balls; a thin shell; a ball on a mirror. With `turned` the other way
 /// round, since of surfaces at one place the one that is found first depends on the order.
 Scene contacts(bool turned) {
   Scene scene = sky_of_one();

@@ -88,8 +88,8 @@ Object rectangle(const Transform& transform, int material) {
   return object;
 }
 
-/// A white box without a front wall, a lamp under its ceiling. Of the 2 x 2 texels of its back wall, which
-/// the camera sees above the floor, one is `first` and one is `second`.
+/// A white box without a front wall, an emitter under its ceiling. Of the 2 x 2 texels of its back wall,
+/// which the camera sees above the floor, one is `first` and one is `second`.
 Scene bad_texture_scene(std::uint64_t inputs, float first, float second, Integrator integrator) {
   Scene scene;
   scene.width = scene.height =
@@ -112,12 +112,12 @@ Scene bad_texture_scene(std::uint64_t inputs, float first, float second, Integra
   TextureSpec texture;
   texture.image = 0;
   scene.textures = {texture};
-  MaterialSpec white, textured, lamp;
+  MaterialSpec white, textured, emitter;
   white.color = {0.7, 0.7, 0.7};
   textured.color_texture = 0;
-  lamp.color = {0, 0, 0};
-  lamp.emission = {5, 5, 5};
-  scene.materials = {white, textured, lamp};
+  emitter.color = {0, 0, 0};
+  emitter.emission = {5, 5, 5};
+  scene.materials = {white, textured, emitter};
   const auto wall = [](int axis, double degrees, Vec3 to) {
     return Transform::scale({2, 2, 1})
         .followed_by(Transform::rotate(axis, degrees * std::numbers::pi / 180))

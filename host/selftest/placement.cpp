@@ -35,13 +35,14 @@ Scene room(double unit, Vec3 shift, Integrator integrator) {
   scene.meshes = {mesh};
   Object box = make_object(Object::Shape::box, place, 0);
   box.size = {4, 4, 4};
-  Object lamp = make_object(Object::Shape::disk,
-                            Transform::rotate(0, std::numbers::pi / 2)
-                                .followed_by(Transform::shift({0, 1.875, 0}))
-                                .followed_by(place),
-                            3);
-  lamp.radius = 0.75;
-  scene.objects = {box, lamp, make_mesh_object(0, Transform::shift({-0.75, -1, -0.5}).followed_by(place), 2),
+  Object emitter = make_object(Object::Shape::disk,
+                               Transform::rotate(0, std::numbers::pi / 2)
+                                   .followed_by(Transform::shift({0, 1.875, 0}))
+                                   .followed_by(place),
+                               3);
+  emitter.radius = 0.75;
+  scene.objects = {box, emitter,
+                   make_mesh_object(0, Transform::shift({-0.75, -1, -0.5}).followed_by(place), 2),
                    make_sphere(at({0.25, -1.5, 0.75}), 0.5 * unit, 1),
                    make_sphere(at({-1.25, 1.25, 1.25}), 0.25 * unit, 3)};
   scene.camera = make_camera(at({0.25, 0, 1.875}), at({0, -0.75, 0}), 1.5);

@@ -60,9 +60,9 @@ CheckResult long_recursion(CheckContext& context) {
   const auto start = pixels;
   const auto state = context.device.upload(pixels, "pixels of a check"),
              generators = context.device.upload(states, "states of a check"),
-             shares = context.device.upload(alphas, "alphas of a check");
+             alpha_buffer = context.device.upload(alphas, "alphas of a check");
   cl::Kernel kernel(context.program(source, 0), "update_many");
-  launch_passes(context, kernel, items, state, generators, shares);
+  launch_passes(context, kernel, items, state, generators, alpha_buffer);
   pixels = context.device.download<SppmPixel>(state, items);
   std::vector<double> errors(items);
   parallel_chunks(items, 1, context.threads, [&](std::size_t i, std::size_t) {

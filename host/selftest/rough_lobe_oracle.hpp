@@ -31,7 +31,7 @@ struct RoughLobeOracle {
     double pdf = 0;
     Vec3 h;             // the microfacet
     double cosine = 0;  // v.h
-    double length = 0;  // |v + eta leaving|, by which an error of the directions grows to one of h
+    double length = 0;  // |v + eta wo|, by which an error of the directions grows to one of h
   };
 
   double distribution(Vec3 h) const {
@@ -44,19 +44,19 @@ struct RoughLobeOracle {
   double masking(Vec3 v) const { return 1 / (1 + lambda(v)); }
 
   /// Walter et al. 2007, equations 20 and 21, with visible normals (Heitz 2018) for the density.
-  Value evaluate(Vec3 v, Vec3 leaving) const {
+  Value evaluate(Vec3 v, Vec3 wo) const {
     Value result;
-    const bool reflects = leaving.z > 0;
-    if (leaving.z == 0 || (!reflects && !transmits)) return result;
-    const Vec3 sum = reflects ? v + leaving : v + eta.real() * leaving;
+    const bool reflects = wo.z > 0;
+    if (wo.z == 0 || (!reflects && !transmits)) return result;
+    const Vec3 sum = reflects ? v + wo : v + eta.real() * wo;
     result.length = length(sum);
     result.h = sum * ((sum.z < 0 ? -1 : 1) / result.length);
     result.cosine = dot(v, result.h);
-    const double other = dot(leaving, result.h);
+    const double other = dot(wo, result.h);
     if (!(result.cosine > 0) || (other > 0) != reflects) return result;
     const double reflectance = fresnel_oracle(result.cosine, eta), d = distribution(result.h);
     const double visible = masking(v) * result.cosine * d / v.z;
-    const double occluded_along = result.cosine * d / (v.z * (1 + lambda(v) + lambda(leaving)));
+    const double occluded_along = result.cosine * d / (v.z * (1 + lambda(v) + lambda(wo)));
     if (reflects) {
       result.value = reflectance * occluded_along / (4 * result.cosine);
       result.pdf = (transmits ? reflectance : 1) * visible / (4 * result.cosine);

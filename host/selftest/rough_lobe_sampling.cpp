@@ -38,9 +38,9 @@ Histogram expected_histogram(double cosine, double alpha) {
     const double y = (static_cast<double>(i) + 0.5) / side, tangent = alpha * std::sqrt(1 - y * y) / y;
     for (std::size_t j = 0; j < side; ++j) {
       const double angle = 2 * std::numbers::pi * (static_cast<double>(j) + 0.5) / side;
-      const double share = std::max(0.0, cosine + tangent * sine * std::cos(angle)) * y;
-      histogram.probabilities[i / steps * bins + j / steps] += share;
-      sum += share;
+      const double weight = std::max(0.0, cosine + tangent * sine * std::cos(angle)) * y;
+      histogram.probabilities[i / steps * bins + j / steps] += weight;
+      sum += weight;
     }
   }
   for (double& probability : histogram.probabilities) probability /= sum;

@@ -12,14 +12,14 @@ namespace {
 constexpr const char* source = R"(
 #include "materials/bsdf.cl"
 typedef struct {
-  float wi[3], leaving[3], random[3];
+  float wi[3], wo[3], random[3];
   float alpha, ior;
   uint kind;
 } Input;
 typedef struct {
   float direction[3], weight, pdf;
   float again_weight, again_pdf;  // what evaluation says of the sampled direction
-  float value, value_pdf;         // and of `leaving`
+  float value, value_pdf;         // and of `wo`
   float alpha;                    // what the lobe is treated as
 } Output;
 kernel void lobe(global const Input *in, global Output *out, uint count) {
@@ -40,7 +40,7 @@ kernel void lobe(global const Input *in, global Output *out, uint count) {
   out[i].alpha = bsdf.alpha;
   n = facing_normal(&surface, wi);
   BsdfSample again = rough_evaluate(&bsdf, &surface, wi, n, next.direction);
-  BsdfSample other = rough_evaluate(&bsdf, &surface, wi, n, convert_real3(vload3(0, in[i].leaving)));
+  BsdfSample other = rough_evaluate(&bsdf, &surface, wi, n, convert_real3(vload3(0, in[i].wo)));
   out[i].again_weight = again.weight.x;
   out[i].again_pdf = again.pdf;
   out[i].value = other.weight.x * other.pdf;
@@ -49,7 +49,7 @@ kernel void lobe(global const Input *in, global Output *out, uint count) {
 )";
 
 struct Input {
-  float wi[3], leaving[3], random[3];
+  float wi[3], wo[3], random[3];
   float alpha, ior;
   std::uint32_t kind;
 };
@@ -65,7 +65,7 @@ constexpr double unit = 0x1p-24;
 /// rounds by one unit at most, and the distribution is a square of squares.
 constexpr double operations = 32;
 
-constexpr double grazing_cosine = 1e-6;  // to which the kernels lift arriving directions
+constexpr double grazing_cosine = 1e-6;  // to which the kernels lift wi
 
 Vec3 to_vec(const float* v) { return {v[0], v[1], v[2]}; }
 void store(Vec3 v, float* out) {
@@ -90,12 +90,12 @@ struct Lobe {
   Vec3 local(const float* direction) const { return {direction[0], direction[1], side * direction[2]}; }
 
   /// How far rounding of the directions and of the index by one unit may change the relative value at
-  /// `leaving`: the half vector turns by unit / |v + eta leaving|, the lobe's width is alpha, cosines count
+  /// `wo`: the half vector turns by unit / |v + eta wo|, the lobe's width is alpha, cosines count
   /// relative to themselves, and so does eta - 1. Next to total reflection the cosine of refraction is the
   /// root of a difference.
-  double condition(const RoughLobeOracle::Value& exact, Vec3 leaving) const {
+  double condition(const RoughLobeOracle::Value& exact, Vec3 wo) const {
     double turned = 1 / oracle.alpha + 1 / std::fabs(exact.cosine) + 1 / exact.h.z,
-           fixed = 1 / std::fabs(leaving.z);
+           fixed = 1 / std::fabs(wo.z);
     if (oracle.transmits) {
       const double eta = oracle.eta.real(), square = (eta - 1) * (eta + 1) + exact.cosine * exact.cosine;
       turned += 1 / std::fabs(square);
@@ -104,8 +104,8 @@ struct Lobe {
     return unit * (1 + turned / exact.length + fixed);
   }
   /// Whether rounding may decide if there is anything at all.
-  bool on_verge(const RoughLobeOracle::Value& exact, Vec3 leaving) const {
-    return !(operations * condition(exact, leaving) < 1);
+  bool on_verge(const RoughLobeOracle::Value& exact, Vec3 wo) const {
+    return !(operations * condition(exact, wo) < 1);
   }
 };
 
@@ -146,12 +146,12 @@ Input make_input(InputRandom& random, std::uint64_t index) {
       if (random.below(2)) u = random.below(2) ? 0.0f : 1 - 0x1p-24f;
 
   // A direction next to the mirror image or the straight continuation, or any.
-  Vec3 leaving = random.direction();
+  Vec3 wo = random.direction();
   if (random.below(4)) {
     const double spread = in.alpha * random.scale(-1, 1), z = random.below(2) ? -1 : 1;
-    leaving = normalize(Vec3{in.wi[0], in.wi[1], z * in.wi[2]} + spread * leaving);
+    wo = normalize(Vec3{in.wi[0], in.wi[1], z * in.wi[2]} + spread * wo);
   }
-  store(leaving, in.leaving);
+  store(wo, in.wo);
   return in;
 }
 
@@ -159,11 +159,10 @@ Input make_input(InputRandom& random, std::uint64_t index) {
 /// keeps its value within 5% where it meets surface and microfacet at 6 degrees or more, both ways.
 constexpr double resolved = 0.05, resolved_cosine = 0.1;
 
-double lobe_error(double found, double exact, double condition, const RoughLobeOracle::Value& at,
-                  Vec3 leaving) {
+double lobe_error(double found, double exact, double condition, const RoughLobeOracle::Value& at, Vec3 wo) {
   const double error = std::fabs(found - exact) / exact;
-  const bool well = at.cosine > resolved_cosine && std::fabs(dot(leaving, at.h)) > resolved_cosine &&
-                    std::fabs(leaving.z) > resolved_cosine && at.length > 0.5;
+  const bool well = at.cosine > resolved_cosine && std::fabs(dot(wo, at.h)) > resolved_cosine &&
+                    std::fabs(wo.z) > resolved_cosine && at.length > 0.5;
   return std::max(error / (operations * condition), well ? error / resolved : 0);
 }
 
@@ -185,13 +184,13 @@ CheckResult sampled(CheckContext& context) {
         if (out.alpha == 0) return out.pdf == 0 && lobe_width(in) < widest_specular ? 0.0 : 1e9;
         if (out.weight == 0) return 0.0;  // the path ends
         if (!(out.pdf > 0)) return 1e9;
-        const Vec3 leaving = lobe.local(out.direction);
-        if (leaving.z == 0 || (leaving.z < 0 && !lobe.oracle.transmits)) return 1e9;
-        const auto exact = lobe.oracle.evaluate(lobe.v, leaving);
-        if (!(exact.pdf > 0)) return lobe.on_verge(exact, leaving) ? 0.0 : 1e9;
-        const double condition = lobe.condition(exact, leaving);
-        return std::max(lobe_error(out.pdf, exact.pdf, condition, exact, leaving),
-                        lobe_error(double(out.weight) * out.pdf, exact.value, condition, exact, leaving));
+        const Vec3 wo = lobe.local(out.direction);
+        if (wo.z == 0 || (wo.z < 0 && !lobe.oracle.transmits)) return 1e9;
+        const auto exact = lobe.oracle.evaluate(lobe.v, wo);
+        if (!(exact.pdf > 0)) return lobe.on_verge(exact, wo) ? 0.0 : 1e9;
+        const double condition = lobe.condition(exact, wo);
+        return std::max(lobe_error(out.pdf, exact.pdf, condition, exact, wo),
+                        lobe_error(double(out.weight) * out.pdf, exact.value, condition, exact, wo));
       });
 }
 
@@ -205,13 +204,13 @@ CheckResult sampled_again(CheckContext& context) {
       [](const Input& in, const Output& out) {
         if (out.alpha == 0 || out.weight == 0) return 0.0;
         const Lobe lobe(in, out.alpha);
-        const Vec3 leaving = lobe.local(out.direction);
-        const auto exact = lobe.oracle.evaluate(lobe.v, leaving);
+        const Vec3 wo = lobe.local(out.direction);
+        const auto exact = lobe.oracle.evaluate(lobe.v, wo);
         if (!(exact.pdf > 0)) return 0.0;  // judged by the check of samples
-        if (!(out.again_pdf > 0)) return lobe.on_verge(exact, leaving) ? 0.0 : 1e9;
-        const double condition = lobe.condition(exact, leaving);
-        return std::max(lobe_error(out.again_pdf, out.pdf, 2 * condition, exact, leaving),
-                        lobe_error(out.again_weight, out.weight, 2 * condition, exact, leaving));
+        if (!(out.again_pdf > 0)) return lobe.on_verge(exact, wo) ? 0.0 : 1e9;
+        const double condition = lobe.condition(exact, wo);
+        return std::max(lobe_error(out.again_pdf, out.pdf, 2 * condition, exact, wo),
+                        lobe_error(out.again_weight, out.weight, 2 * condition, exact, wo));
       });
 }
 
@@ -226,15 +225,15 @@ CheckResult evaluated(CheckContext& context) {
         if (!std::isfinite(out.value) || !std::isfinite(out.value_pdf) || out.value < 0 || out.value_pdf < 0)
           return 1e9;
         const Lobe lobe(in, out.alpha);
-        const Vec3 leaving = lobe.local(in.leaving);
-        const auto exact = lobe.oracle.evaluate(lobe.v, leaving);
-        const double condition = lobe.condition(exact, leaving);
-        if (exact.length == 0 || lobe.on_verge(exact, leaving)) return 0.0;
+        const Vec3 wo = lobe.local(in.wo);
+        const auto exact = lobe.oracle.evaluate(lobe.v, wo);
+        const double condition = lobe.condition(exact, wo);
+        if (exact.length == 0 || lobe.on_verge(exact, wo)) return 0.0;
         // A path exactly along the surface has no side to reflect to.
         if (in.wi[2] == 0 && out.value == 0) return 0.0;
         if (!(exact.pdf > 0)) return out.value_pdf == 0 ? 0.0 : 1e9;
-        return std::max(lobe_error(out.value_pdf, exact.pdf, condition, exact, leaving),
-                        lobe_error(out.value, exact.value, condition, exact, leaving));
+        return std::max(lobe_error(out.value_pdf, exact.pdf, condition, exact, wo),
+                        lobe_error(out.value, exact.value, condition, exact, wo));
       });
 }
 

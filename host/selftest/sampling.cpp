@@ -157,7 +157,7 @@ CheckResult uniform_cone(CheckContext& context) {
   });
 }
 
-/// Each angle's share of reflected light is its reflectance, by the exact equations.
+/// Each angle's fraction of reflected light is its reflectance, by the exact equations.
 CheckResult glass_choice(CheckContext& context) {
   constexpr float ior = 1.5f;
   std::vector<float> cosines;

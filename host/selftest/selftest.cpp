@@ -18,7 +18,7 @@ std::uint64_t inputs_of(const Check& check, const SelftestOptions& options) {
     case SelftestOptions::Effort::quick:
       return std::max<std::uint64_t>(100000 / check.input_cost, 1000);
     case SelftestOptions::Effort::full:
-      return std::max<std::uint64_t>(std::llround(1e8 * check.share), 1000000);
+      return std::max<std::uint64_t>(std::llround(1e8 * check.input_fraction), 1000000);
     default:
       return 1000000;
   }

@@ -50,7 +50,7 @@ struct Check {
   CheckResult (*run)(CheckContext&);
   std::string programs =
       {};  // checks that share kernel programs, which take seconds to compile, have the same
-  double share =
+  double input_fraction =
       1;  // of its hard case's inputs, where these are shared so that all its checks take equally long
 };
 

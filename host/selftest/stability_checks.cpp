@@ -45,7 +45,7 @@ std::vector<Check> stability_checks() {
   std::map<int, double>
       inputs_for_one;  // of a case: what all its checks try while a check of cost 1 tries one
   for (const auto& check : all) inputs_for_one[check.hard_case] += 1.0 / check.input_cost;
-  for (auto& check : all) check.share = 1 / (check.input_cost * inputs_for_one[check.hard_case]);
+  for (auto& check : all) check.input_fraction = 1 / (check.input_cost * inputs_for_one[check.hard_case]);
   std::stable_sort(all.begin(), all.end(),
                    [](const Check& a, const Check& b) { return a.hard_case < b.hard_case; });
   return all;

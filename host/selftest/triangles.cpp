@@ -92,8 +92,8 @@ MeshRay ray_from_inside(const std::vector<ClosedMesh>& all, InputRandom& random)
   if (kind < 4) return make_mesh_ray(origin, origin + random.direction(), index);
   const auto& triangle = closed.mesh[random.below(static_cast<std::uint32_t>(closed.mesh.size()))];
   const Vec3 a = triangle_vertex(triangle, 0), b = triangle_vertex(triangle, 1);
-  const double share = kind == 4 ? random.uniform() : kind == 5 ? 0.5 : 0;
-  Vec3 target = a * (1 - share) + b * share;
+  const double fraction = kind == 4 ? random.uniform() : kind == 5 ? 0.5 : 0;
+  Vec3 target = a * (1 - fraction) + b * fraction;
   for (int k = 0; k < 3; ++k)
     target[k] = next_float(static_cast<float>(target[k]), static_cast<int>(random.below(3)) - 1);
   MeshRay ray = make_mesh_ray(origin, target, index);

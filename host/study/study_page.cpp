@@ -108,7 +108,7 @@ void replace(std::string& text, const std::string& mark, const std::string& by) 
   if (at != std::string::npos) text.replace(at, mark.size(), by);
 }
 
-std::string percent(double share) { return short_number(100 * share) + "%"; }
+std::string percent(double fraction) { return short_number(100 * fraction) + "%"; }
 
 }  // namespace
 

@@ -21,7 +21,7 @@ const digits = (value) => {
   const text = Number(value.toPrecision(3));
   return Math.abs(text) >= 1e6 || (text !== 0 && Math.abs(text) < 1e-4) ? text.toExponential() : String(text);
 };
-const percent = (share) => (share === null ? '∞' : digits(100 * share) + '%');
+const percent = (fraction) => (fraction === null ? '∞' : digits(100 * fraction) + '%');
 const duration = (seconds) =>
   seconds < 120 ? digits(seconds) + ' s' : seconds < 7200 ? digits(seconds / 60) + ' min' : digits(seconds / 3600) + ' h';
 

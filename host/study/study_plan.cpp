@@ -54,16 +54,17 @@ void plan_runs(Study& study, double seconds, double pass_seconds, double overhea
   constexpr double fewest_passes = 3;
   constexpr int fewest_seeds = 2;
   const double needed = fewest_passes * pass_seconds;
-  const auto share = [&](std::size_t settings, int seeds) {
+  const auto seconds_a_run = [&](std::size_t settings, int seeds) {
     return seconds / (static_cast<double>(settings) * seeds) - overhead;
   };
   study.seeds = wanted_seeds;
-  while (study.seeds > fewest_seeds && share(study.settings.size(), study.seeds) < 2 * needed) --study.seeds;
-  while (study.settings.size() > 1 && share(study.settings.size(), study.seeds) < needed) {
+  while (study.seeds > fewest_seeds && seconds_a_run(study.settings.size(), study.seeds) < 2 * needed)
+    --study.seeds;
+  while (study.settings.size() > 1 && seconds_a_run(study.settings.size(), study.seeds) < needed) {
     study.left_out.push_back(study.settings.back().id() + ": no time for it within the budget");
     study.settings.pop_back();
   }
-  study.run_seconds = std::max(share(study.settings.size(), study.seeds), pass_seconds);
+  study.run_seconds = std::max(seconds_a_run(study.settings.size(), study.seeds), pass_seconds);
 }
 
 }  // namespace causticl

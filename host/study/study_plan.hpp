@@ -9,7 +9,7 @@
 
 namespace causticl {
 
-/// Parts of the budget, as the share of it that is spent when each ends.
+/// Parts of the budget, as the fraction of it that is spent when each ends.
 struct StudyBudget {
   double seconds = 300;
   bool own_reference = true;

@@ -116,10 +116,10 @@ void make_reference(StudySession& session) {
   reference.how = description(setting, passes);
   reference.mean = usable_mean(mean, session.request.scene);
   // Var((1-w) A + w B) = w (1-w) Var(A - B), where the variance of either is as one over its passes.
-  const double share = weight * (1 - weight);
+  const double factor = weight * (1 - weight);
   const Comparison apart = compare_pictures(halves[0].picture, halves[1].picture);
-  reference.relative_mse = share * apart.mse / (reference.mean * reference.mean);
-  reference.error_90 = std::sqrt(share) * relative_error_quantile(halves[0].picture, halves[1].picture, 0.9);
+  reference.relative_mse = factor * apart.mse / (reference.mean * reference.mean);
+  reference.error_90 = std::sqrt(factor) * relative_error_quantile(halves[0].picture, halves[1].picture, 0.9);
   reference.seconds = halves[0].seconds + halves[1].seconds;
   write_picture(file, mean, {{"scene", study.scene}, {"reference", reference.how}});
   session.reference = std::move(mean);

@@ -121,7 +121,7 @@ Emitter environment_emitter(const Environment& environment, const LitRegion& reg
 
 /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
 /// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
-std::uint64_t share_numbers(FlatScene& world) {
+std::uint64_t assign_numbers(FlatScene& world) {
   const auto power = [](const Emitter& light) {
     return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
            static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
@@ -153,7 +153,7 @@ void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatSce
     }
     if (environment) world.emitters.push_back(environment_emitter(*scene.environment, region));
   }
-  const std::uint64_t last = share_numbers(world);
+  const std::uint64_t last = assign_numbers(world);
   if (environment) world.environment = environment_table(*scene.environment, last);
 }
 

@@ -7,7 +7,7 @@
 namespace causticl {
 namespace {
 
-/// What each texel's share of all numbers is in proportion to. The sine of a row's middle stands for its
+/// What each texel's fraction of all numbers is in proportion to. The sine of a row's middle stands for its
 /// solid angle.
 class TexelWeights {
  public:

@@ -56,7 +56,7 @@ RenderBenchResult bench_scene(Device& device, Scene scene, DirectLight direct_li
                                      scene.renderer.visible_points / result.seconds_per_pass;
   result.statistics.photons_per_second =
       static_cast<double>(scene.renderer.photons) / result.seconds_per_pass;
-  result.host_share =
+  result.host_fraction =
       1 - (kernel_seconds(fresh) - kernels_before) / (rendered.statistics.pass_seconds - passes_before);
   if (compare) result.relative_rmse = compare_with_references(rendered.picture).relative_rmse;
   return result;
@@ -194,7 +194,7 @@ std::string render_table(const std::vector<RenderBenchResult>& results) {
     std::snprintf(
         line, sizeof line,
         "     tree %.3f s, host %.1f%% of a pass, %.1f bytes a pixel, %.0f MiB on the device, peak %.0f MiB",
-        s.tree_build_seconds, 100 * result.host_share, s.bytes_per_pixel,
+        s.tree_build_seconds, 100 * result.host_fraction, s.bytes_per_pixel,
         static_cast<double>(s.device_bytes) / 1048576, static_cast<double>(s.peak_memory_bytes) / 1048576);
     table += line;
     if (result.relative_rmse >= 0) {
@@ -225,7 +225,7 @@ nlohmann::json render_json(const std::vector<RenderBenchResult>& results) {
                          {"seconds_per_pass", result.seconds_per_pass},
                          {"cpu_seconds_per_pass", result.cpu_seconds_per_pass},
                          {"tree_build_seconds", s.tree_build_seconds},
-                         {"host_share", result.host_share},
+                         {"host_share", result.host_fraction},
                          {"bytes_per_pixel", s.bytes_per_pixel},
                          {"device_bytes", s.device_bytes},
                          {"peak_memory_bytes", s.peak_memory_bytes}};

@@ -17,7 +17,7 @@ struct RenderBenchResult {
   Statistics statistics;     // of a run with warm kernels
   double seconds_per_pass = 0, cpu_seconds_per_pass = 0, visible_points_per_second = 0;
   double relative_rmse = -1;  // against the references; -1 where there is none
-  double host_share = 0;      // of the passes' time: what no kernel accounts for
+  double host_fraction = 0;   // of the passes' time: what no kernel accounts for
 };
 
 /// SPPM of the Cornell box, the glass caustic and, where present, the references' scene with either way of

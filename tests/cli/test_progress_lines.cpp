@@ -50,7 +50,7 @@ TEST_CASE("the progress bar never exceeds its width") {
     CHECK(progress_bar(progress_at(25, 7), 1e6, 3e6, width).size() <= static_cast<std::size_t>(width));
 }
 
-TEST_CASE("the progress bar shows the share done and, where there is room, every number") {
+TEST_CASE("the progress bar shows the fraction done and, where there is room, every number") {
   const std::string bar = progress_bar(progress_at(25, 7), 1e6, 3e6, 150);
   CHECK(std::count(bar.begin(), bar.end(), '#') == 10);
   CHECK(std::count(bar.begin(), bar.end(), '.') >= 30);

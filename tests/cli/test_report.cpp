@@ -91,7 +91,7 @@ TEST_CASE("the error is told with its confidence and its parts, and is null wher
   CHECK_THAT(statistics_table(statistics), Contains("2.1% in 95% of the pixels"));
 }
 
-TEST_CASE("the table lists kernels by their share of the time") {
+TEST_CASE("the table lists kernels by their fraction of the time") {
   const std::string table = statistics_table(example_statistics());
   CHECK_THAT(table, Contains("Example device") && Contains("75.0%") && Contains("25.0%"));
   CHECK(table.find("gather") < table.find("trace_photons"));

@@ -33,8 +33,8 @@ std::vector<float> pixels_with(Scene scene, Integrator integrator, const std::st
   return render_scene(scene, test_device(), options).picture.rgb;
 }
 
-/// The share of `one`'s values that `other` does not have to within rounding; a NaN is had by none.
-double share_of_different(const std::vector<float>& one, const std::vector<float>& other) {
+/// The fraction of `one`'s values that `other` does not have to within rounding; a NaN is had by none.
+double fraction_different(const std::vector<float>& one, const std::vector<float>& other) {
   REQUIRE(one.size() == other.size());
   std::size_t different = 0;
   for (std::size_t i = 0; i < one.size(); ++i)
@@ -48,7 +48,7 @@ void check_same(const std::vector<float>& one, const std::vector<float>& other) 
   if (test_device().info().type == "cpu")
     CHECK(one == other);
   else
-    CHECK(share_of_different(one, other) < 0.05);
+    CHECK(fraction_different(one, other) < 0.05);
 }
 
 std::vector<std::string> shipped_scenes() {

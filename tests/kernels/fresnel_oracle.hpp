@@ -12,7 +12,7 @@ struct Boundary {
   double reflectance, cosine_t;
 };
 
-/// Exact equations, or what they give for a squared cosine of refraction that is `shift` (a share of its
+/// Exact equations, or what they give for a squared cosine of refraction that is `shift` (a fraction of its
 /// terms) away and a cosine of incidence that is `offset` away: bounds of what rounding may change.
 inline Boundary fresnel_oracle(double cosine, double eta, double shift = 0, double offset = 0) {
   cosine = std::clamp(cosine + offset, 0.0, 1.0);

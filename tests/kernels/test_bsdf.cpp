@@ -9,7 +9,7 @@ namespace {
 const char* const source = R"(
 #include "materials/bsdf.cl"
 typedef struct {
-  float4 direction;  // arriving; w: ior
+  float4 direction;  // wi; w: ior
   float4 geometric, shading, random;
 } Input;
 typedef struct {
@@ -17,7 +17,7 @@ typedef struct {
   float4 weight;
   float4 facing;     // the facing normal
   float4 emission;   // at this side of a one- and two-sided light
-  float4 side;       // cosine of the geometric normal with the arriving and the leaving direction, as kernels see it
+  float4 side;       // cosine of the geometric normal with wi and wo, as kernels see it
 } Output;
 kernel void sample(global const Input *in, global Output *out, uint count, uint kind, uint radiance,
                    global const Material *lights) {
@@ -64,7 +64,7 @@ std::vector<Output> sample(const std::vector<Input>& inputs, uint kind, bool rad
 
 constexpr double cosine_rounding = 2e-7;  // of a dot product of unit vectors
 
-/// Arriving directions on both sides of flat surfaces, a share of them grazing.
+/// Directions wi on both sides of flat surfaces, some of them grazing.
 std::vector<Input> flat_inputs(RandomInputs& random) {
   std::vector<Input> inputs(sample_count);
   for (std::size_t i = 0; i < sample_count; ++i) {
@@ -226,7 +226,7 @@ TEST_CASE("tilted shading normals send nothing through the surface") {
       not_finite += !(std::fabs(length(out) - 1) < 1e-6) || !std::isfinite(weight.x + weight.y + weight.z);
       const bool front = outputs[i].side.x < 0, same = same_side(outputs[i]);
 
-      // The shading normal turned to the arriving side, or the geometric one where that still leans away.
+      // The shading normal turned to the side of arrival, or the geometric one where that still leans away.
       const Vec3 shading = front ? s : -s, geometric = front ? g : -g;
       if (std::fabs(dot(shading, d)) > 1e-6)
         wrong_normal += !(n == (dot(shading, d) < 0 ? shading : geometric));

@@ -17,16 +17,16 @@ kernel void arrive(global const float4 *in, global float4 *out, uint count, glob
   if (i >= count) return;
   real3 direction = (real3)(0, 0, 0);
   real distance = 0;
-  real3 wi = delta_light_arrival(emitter, convert_real3(in[i].xyz), &direction, &distance);
-  out[2 * i] = convert_float4((real4)(wi, 0));
+  real3 irradiance = delta_light_arrival(emitter, convert_real3(in[i].xyz), &direction, &distance);
+  out[2 * i] = convert_float4((real4)(irradiance, 0));
   out[2 * i + 1] = convert_float4((real4)(direction, distance));
 }
 kernel void leave(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  real share;
-  Ray ray = delta_light_ray(emitter, convert_real2(in[i].xy), &share);
-  out[i] = convert_float4((real4)(ray.direction, share));
+  real weight;
+  Ray ray = delta_light_ray(emitter, convert_real2(in[i].xy), &weight);
+  out[i] = convert_float4((real4)(ray.direction, weight));
 }
 )";
 
@@ -106,24 +106,24 @@ TEST_CASE("light arrives by the inverse square of the distance, and from afar as
     const auto got = outputs_of<Arrival>(program(), "arrive", in, emitter);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < in.size(); ++i) {
-      const Vec3 wi = to_vec3(got[i].weight), direction = to_vec3(got[i].direction);
+      const Vec3 irradiance = to_vec3(got[i].weight), direction = to_vec3(got[i].direction);
       const double distance = got[i].direction.w;
       if (light.type == EMITTER_DIRECTIONAL) {
-        wrong += !(wi == Vec3{2, 4, 1} && length(direction + axis) < 1e-6 && std::isinf(distance));
+        wrong += !(irradiance == Vec3{2, 4, 1} && length(direction + axis) < 1e-6 && std::isinf(distance));
         continue;
       }
       const Vec3 to_light = Vec3{1, 2, 3} - to_vec3(in[i]);
       const double square = dot(to_light, to_light);
       // At the very place of the light nothing is defined, and nothing arrives.
       if (square == 0) {
-        wrong += !(wi == Vec3{});
+        wrong += !(irradiance == Vec3{});
         continue;
       }
-      double share = 1;
+      double falloff = 1;
       if (light.type == EMITTER_SPOT)
-        share = expected_falloff(std::acos(std::clamp(-dot(to_light, axis) / std::sqrt(square), -1.0, 1.0)),
-                                 0.8, 0.4);
-      wrong += !(length(wi * square - Vec3{2, 4, 1} * share) < 1e-5 &&
+        falloff = expected_falloff(std::acos(std::clamp(-dot(to_light, axis) / std::sqrt(square), -1.0, 1.0)),
+                                   0.8, 0.4);
+      wrong += !(length(irradiance * square - Vec3{2, 4, 1} * falloff) < 1e-5 &&
                  length(direction - to_light / std::sqrt(square)) < 1e-6 &&
                  std::fabs(distance - std::sqrt(square)) < 1e-6 * distance);
     }

@@ -120,8 +120,8 @@ TEST_CASE("a prism turns each wavelength as the formula says, least where the ra
     // turned from there, with the angles of either side by Snell's law.
     const double incidence = (least + apex) / 2 - (i % 2 ? 0 : random.uniform(-0.05, 0.2));
     const double inside = std::asin(std::sin(incidence) / n),
-                 leaving = std::asin(n * std::sin(apex - inside));
-    exact[i] = i % 2 ? least : incidence + leaving - apex;
+                 emergence = std::asin(n * std::sin(apex - inside));
+    exact[i] = i % 2 ? least : incidence + emergence - apex;
     inputs[i] = {float(apex), float(apex / 2 - incidence), float(a), float(1 / (wavelength * wavelength))};
   }
   auto in = test_device().upload(inputs, "inputs");

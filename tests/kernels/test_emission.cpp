@@ -51,7 +51,7 @@ Histogram flat(const SquareBins& bins) {
 
 }  // namespace
 
-TEST_CASE("photons leave uniformly over the area, by the cosine law, each channel with its share") {
+TEST_CASE("photons leave uniformly over the area, by the cosine law, each channel in proportion") {
   const SquareBins bins{24, 32};
   for (const bool two_sided : {false, true}) {
     // A disc of radius 2 in z = 0, a square, a sphere of radius 3 and a revolved curve.

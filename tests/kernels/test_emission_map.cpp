@@ -12,7 +12,7 @@ namespace {
 const char* const source = R"(
 #include "sampling/rng.cl"
 #include "photons/emission_map.cl"
-kernel void draw(global const EmissionCell *cells, uint count, global float *numbers, global float *shares, uint seed,
+kernel void draw(global const EmissionCell *cells, uint count, global float *numbers, global float *weights, uint seed,
                  uint draws) {
   uint i = get_global_id(0);
   if (i >= draws) return;
@@ -21,7 +21,7 @@ kernel void draw(global const EmissionCell *cells, uint count, global float *num
   real u = random.x, v = random.y;
   uint cell = emission_cell(cells, count, random4(stream, DIM_EMISSION_CELL).x);
   choice = emission_numbers(cells + cell, choice, &u, &v);
-  shares[i] = cells[cell].share;
+  weights[i] = cells[cell].weight;
   global float *point = numbers + START_NUMBERS * i;
   point[0] = choice.x, point[1] = choice.y, point[2] = choice.z, point[3] = u, point[4] = v;
 }
@@ -59,7 +59,7 @@ std::vector<EmissionCell> learned(RandomInputs& random) {
 
 }  // namespace
 
-TEST_CASE("the cells of an emission map fill the cube, and each share of flux is over its density") {
+TEST_CASE("the cells of an emission map fill the cube, and each weight of flux is over its density") {
   RandomInputs random(20261129);
   const auto cells = learned(random);
   CHECK(cells.size() > 10);
@@ -68,9 +68,9 @@ TEST_CASE("the cells of an emission map fill the cube, and each share of flux is
   for (const auto& cell : cells) {
     REQUIRE(cell.end > before);
     all += volume(cell);
-    CHECK(cell.share * (cell.end - before) / static_cast<double>(EMISSION_NUMBERS) ==
+    CHECK(cell.weight * (cell.end - before) / static_cast<double>(EMISSION_NUMBERS) ==
           Approx(volume(cell)).epsilon(1e-5));
-    CHECK(cell.share < 4.01);  // a quarter of the photons starts evenly
+    CHECK(cell.weight < 4.01);  // a quarter of the photons starts evenly
     before = cell.end;
   }
   CHECK(all == Approx(1).epsilon(1e-6));
@@ -95,21 +95,21 @@ TEST_CASE("photons by an emission map start where useful ones do, and carry the 
   auto program = build_test_program(source, 0);
   constexpr std::size_t draws = 1 << 18;
   const auto numbers = test_device().buffer(draws * sizeof(StartNumbers), "numbers"),
-             shares = test_device().buffer(draws * sizeof(float), "shares");
+             weights = test_device().buffer(draws * sizeof(float), "weights");
   run_kernel(program, "draw", draws, test_device().upload(cells, "cells"), static_cast<cl_uint>(cells.size()),
-             numbers, shares, cl_uint{20261130}, static_cast<cl_uint>(draws));
+             numbers, weights, cl_uint{20261130}, static_cast<cl_uint>(draws));
   const auto x = test_device().download<StartNumbers>(numbers, draws);
-  const auto share = test_device().download<float>(shares, draws);
+  const auto weight = test_device().download<float>(weights, draws);
   double useful = 0, flux = 0, squares = 0, all = 0, moment = 0;
   for (std::size_t i = 0; i < draws; ++i) {
     for (const float number : x[i]) REQUIRE((number >= 0 && number < 1));
-    REQUIRE(share[i] == static_cast<float>(emission_share(cells, x[i])));
-    all += static_cast<double>(share[i]) / draws;
-    moment += static_cast<double>(share[i]) * x[i][0] * x[i][4] / draws;
+    REQUIRE(weight[i] == static_cast<float>(emission_map_weight(cells, x[i])));
+    all += static_cast<double>(weight[i]) / draws;
+    moment += static_cast<double>(weight[i]) * x[i][0] * x[i][4] / draws;
     if (!is_useful(x[i])) continue;
     useful += 1.0 / draws;
-    flux += static_cast<double>(share[i]) / draws;
-    squares += static_cast<double>(share[i]) * share[i] / draws;
+    flux += static_cast<double>(weight[i]) / draws;
+    squares += static_cast<double>(weight[i]) * weight[i] / draws;
   }
   const double sigma = std::sqrt(squares / draws);
   INFO("useful: " << useful << " of the photons, evenly " << useful_volume);
@@ -122,5 +122,5 @@ TEST_CASE("photons by an emission map start where useful ones do, and carry the 
 TEST_CASE("an emission map of no useful photon starts all evenly") {
   const auto cells = emission_map({}, 1000, {});
   REQUIRE(cells.size() == 1);
-  CHECK(cells[0].share == 1);
+  CHECK(cells[0].weight == 1);
 }

@@ -156,7 +156,7 @@ TEST_CASE("positions are drawn with the density that the lookup gives, and texel
     Environment map = random_map(random, width, height);
     map.map.rgba[0] = 1;
     const auto table = environment_table(map, numbers);
-    // Shares of the largest channel times the sine, exact but for the rounding of both ends.
+    // Fractions of the largest channel times the sine, exact but for the rounding of both ends.
     std::vector<double> weights;
     double total = 0;
     for (int i = 0; i < width * height; ++i) {

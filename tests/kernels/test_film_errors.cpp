@@ -70,7 +70,7 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
     return (p.signed_half_sum - plus * luminance) / n;
   };
   const FilmPixel& own = film[static_cast<std::size_t>(y) * width + x];
-  double share = 1;
+  double ratio = 1;
   if (even_estimates) {
     double squares = 0, variances = 0;
     reach = 3;
@@ -78,10 +78,10 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
       squares += std::pow(drawn_of(p), 2);
       variances += variance_of(p);
     });
-    share = squares / variances;
+    ratio = squares / variances;
   }
-  return {std::sqrt(share * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
-          std::sqrt(share * std::max(variance / pixels, 12.0 / (12 + passes) * wide / wide_pixels)),
+  return {std::sqrt(ratio * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
+          std::sqrt(ratio * std::max(variance / pixels, 12.0 / (12 + passes) * wide / wide_pixels)),
           2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)), drawn_of(own)};
 }
 
@@ -208,9 +208,9 @@ TEST_CASE("the noise of pixels whose estimates are even is that of their means")
     for (uint i = 0; i < errors.size(); ++i) {
       const uint x = i % width;
       if (x + border >= width / 2 && x < width / 2 + border) continue;
-      const double share = 1.0 / (height * (width / 2 - border));
-      noise[x >= width / 2] += share * std::pow(errors[i].noise, 2);
-      pooled[x >= width / 2] += share * std::pow(errors[i].pooled_noise, 2);
+      const double weight = 1.0 / (height * (width / 2 - border));
+      noise[x >= width / 2] += weight * std::pow(errors[i].noise, 2);
+      pooled[x >= width / 2] += weight * std::pow(errors[i].pooled_noise, 2);
     }
     CAPTURE(low_discrepancy, random.seed);
     CHECK(std::sqrt(noise[1] / truth[1]) == Approx(1).epsilon(0.05));

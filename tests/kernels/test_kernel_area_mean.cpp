@@ -22,9 +22,9 @@ kernel void wanted(global const uint *states, global uint *asked, uint pixel) {
   uint i = get_global_id(0), pass = i / 4 % 64;
   if (i < 3 * 64 * 4) asked[i] = kernel_area_wanted(states[i / (64 * 4)], pixel, pass, i % 4 == pass % 4);
 }
-kernel void covered(global const uint *states, global const float *shares, global float *out, uint count) {
+kernel void covered(global const uint *states, global const float *ratios, global float *out, uint count) {
   uint i = get_global_id(0);
-  if (i < count) out[i] = kernel_area_of(states[i], shares[i]);
+  if (i < count) out[i] = kernel_area_of(states[i], ratios[i]);
 }
 )";
 
@@ -53,7 +53,7 @@ TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {
   test_device().launch(means, pixels);
   const auto words = test_device().download<cl_uint>(states, probes.size());
 
-  std::vector<float> shares(words.size());
+  std::vector<float> ratios(words.size());
   std::vector<double> expected(words.size());
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     unsigned sum[2] = {}, number[2] = {};
@@ -69,14 +69,14 @@ TEST_CASE("a pixel keeps the mean of its last probes, of both discs") {
         ++number[disc];
       }
       const double whole = (sum[0] + 1.0) / (number[0] + 1.0), half = (sum[1] + 1.0) / (number[1] + 1.0);
-      shares[i] = static_cast<float>(random.uniform(0.05, 1));
-      const double line = half + (whole - half) * (2.0 * static_cast<double>(shares[i]) - 1);
+      ratios[i] = static_cast<float>(random.uniform(0.05, 1));
+      const double line = half + (whole - half) * (2.0 * static_cast<double>(ratios[i]) - 1);
       expected[i] = std::clamp(line, 0.125, std::max({whole, half, 1.0}));
     }
   }
-  const auto share_buffer = test_device().upload(shares, "shares");
+  const auto ratio_buffer = test_device().upload(ratios, "ratios");
   const auto out = test_device().buffer(words.size() * sizeof(float), "covered");
-  run_kernel(program, "covered", words.size(), states, share_buffer, out, static_cast<cl_uint>(words.size()));
+  run_kernel(program, "covered", words.size(), states, ratio_buffer, out, static_cast<cl_uint>(words.size()));
   const auto covered = test_device().download<float>(out, words.size());
   for (std::size_t i = 0; i < words.size(); ++i)
     REQUIRE(static_cast<double>(covered[i]) == Approx(expected[i]).epsilon(1e-5));

@@ -163,9 +163,9 @@ TEST_CASE("light_sample draws directions with the density that it states, and th
     Histogram histogram(bins.count());
     double integral = 0;
     for (std::size_t i = 0; i < densities.size(); ++i) {
-      const double share = densities[i] * 2 * M_PI * c.reach / static_cast<double>(nx * ny);
-      histogram.probabilities[i / nx / strata * bins.nx + i % nx / strata] += share;
-      integral += share;
+      const double probability = densities[i] * 2 * M_PI * c.reach / static_cast<double>(nx * ny);
+      histogram.probabilities[i / nx / strata * bins.nx + i % nx / strata] += probability;
+      integral += probability;
     }
     for (double& p : histogram.probabilities) p /= integral;
 
@@ -195,7 +195,7 @@ TEST_CASE("light_sample draws directions with the density that it states, and th
       ++seen;
       disagree += !(std::fabs(hit_pdf / pdf - 1) < 1e-3);
     }
-    // The density integrates to the share of samples that fell there: all of them for a convex light.
+    // The density integrates to the fraction of samples that fell there: all of them for a convex light.
     CHECK(integral == Approx(histogram.total / case_count).margin(4e-3));
     if (c.convex) {
       CHECK(used > 0.999 * case_count);

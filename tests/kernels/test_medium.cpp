@@ -175,7 +175,7 @@ TEST_CASE("photons far from the peak of the phase function are worth what they s
   run_kernel(program(), "directions", photon_count, in, words, cl_uint(photon_count));
   const auto packed = test_device().download<cl_uint>(words, photon_count);
   std::vector<Photon> photons(photon_count);
-  const double share = phase_oracle(g, -1) / phase_oracle(g, 1), flux = 1000;
+  const double phase = phase_oracle(g, -1) / phase_oracle(g, 1), flux = 1000;
   double exact[3] = {};
   for (std::size_t i = 0; i < photon_count; ++i) {
     const double along = random.uniform(0.01, 0.99);
@@ -184,7 +184,7 @@ TEST_CASE("photons far from the peak of the phase function are worth what they s
                   packed[i],
                   1000u | 1000u << 16,
                   1000u};
-    for (int c = 0; c < 3; ++c) exact[c] += share * std::exp(-extinction[c] * along) * flux * 16777216;
+    for (int c = 0; c < 3; ++c) exact[c] += phase * std::exp(-extinction[c] * along) * flux * 16777216;
   }
   const Grid grid = make_grid({0.1, -0.2, 0}, 0.17, 8, 8, 8);
   const auto sorted = sort_photons(test_device(), program(), photons, one_grid(grid, photons.size()));
@@ -254,11 +254,11 @@ TEST_CASE(
                   std::fabs(distance2 - radius2 / 4) < 1e-5 * radius2;
         if (distance2 > radius2 || along < 0 || along >= points[p].w) continue;
         ++inside;
-        const double share = phase_oracle(g, -dot(to_vec3(directions[i]), towards)) / peak;
-        const double red_share = share * std::exp(-extinction.x * along) * (photons[i].flux_rg & 0xffffu);
-        red += red_share;
-        if (is_near) near_red += red_share;
-        blue += share * std::exp(-extinction.z * along) * photons[i].flux_b;
+        const double phase = phase_oracle(g, -dot(to_vec3(directions[i]), towards)) / peak;
+        const double red_flux = phase * std::exp(-extinction.x * along) * (photons[i].flux_rg & 0xffffu);
+        red += red_flux;
+        if (is_near) near_red += red_flux;
+        blue += phase * std::exp(-extinction.z * along) * photons[i].flux_b;
       }
       found += inside;
       if (border) continue;

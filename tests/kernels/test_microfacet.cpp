@@ -12,19 +12,19 @@ const char* const source = R"(
 #include "materials/bsdf.cl"
 typedef struct {
   float4 wi;  // w: alpha
-  float4 leaving;   // w: ior
+  float4 wo;   // w: ior
   float4 random;
 } Input;
 typedef struct {
   float4 direction;  // sampled; w: pdf
   float4 weight;     // w: alpha of the lobe
-  float4 value;      // BSDF * cosine towards `leaving`; w: pdf
+  float4 value;      // BSDF * cosine towards `wo`; w: pdf
 } Output;
 // An ideal conductor reflects all: its Fresnel factor is 1.
 kernel void lobe(global const Input *in, global Output *out, uint count, uint kind, uint ideal) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  real ior = in[i].leaving.w;
+  real ior = in[i].wo.w;
   Bsdf bsdf = {kind, (real3)(1, 1, 1), ior, lobe_alpha(in[i].wi.w, kind == MATERIAL_GLASS ? ior : 0),
                (real3)(0.2f, 0.9f, 1.4f), ideal ? (real3)(1e8f, 1e8f, 1e8f) : (real3)(3.9f, 2.4f, 1.6f), 0, false};
   real3 n = (real3)(0, 0, 1), wi = convert_real3(in[i].wi.xyz);
@@ -33,7 +33,7 @@ kernel void lobe(global const Input *in, global Output *out, uint count, uint ki
   out[i].direction = convert_float4((real4)(next.direction, next.pdf));
   out[i].weight = convert_float4((real4)(next.weight, bsdf.alpha));
   BsdfSample other = rough_evaluate(&bsdf, &surface, wi, facing_normal(&surface, wi),
-                                    convert_real3(in[i].leaving.xyz));
+                                    convert_real3(in[i].wo.xyz));
   out[i].value = convert_float4((real4)(other.weight * other.pdf, other.pdf));
 }
 kernel void conductor(global const float4 *in, global float *out, uint count) {
@@ -43,7 +43,7 @@ kernel void conductor(global const float4 *in, global float *out, uint count) {
 )";
 
 struct Input {
-  float4 wi, leaving, random;
+  float4 wi, wo, random;
 };
 struct Output {
   float4 direction, weight, value;
@@ -80,7 +80,7 @@ Vec3 grid_direction(std::size_t i, std::size_t rows) {
 }
 
 /// What single scattering keeps of light in a white furnace, by quadrature over microfacets in double: the
-/// share of visible normals whose mirror image is neither under the horizon nor shadowed.
+/// fraction of visible normals whose mirror image is neither under the horizon nor shadowed.
 double furnace_oracle(Vec3 v, double alpha) {
   const RoughLobeOracle oracle{alpha, 1.5};
   constexpr int steps = 400;
@@ -92,9 +92,9 @@ double furnace_oracle(Vec3 v, double alpha) {
       const double tangent = alpha * std::sqrt(1 - y * y) / y, cosine = 1 / std::sqrt(1 + tangent * tangent);
       const Vec3 h = cosine * Vec3{tangent * std::cos(angle), tangent * std::sin(angle), 1};
       const double seen = dot(v, h);
-      const Vec3 leaving = 2 * seen * h - v;
-      if (seen <= 0 || leaving.z <= 0) continue;
-      const double shadowing = 1 / (1 + oracle.lambda(v) + oracle.lambda(leaving));
+      const Vec3 wo = 2 * seen * h - v;
+      if (seen <= 0 || wo.z <= 0) continue;
+      const double shadowing = 1 / (1 + oracle.lambda(v) + oracle.lambda(wo));
       kept += shadowing * seen / (v.z * cosine) * 2 * y / (steps * steps);
     }
   return kept;
@@ -137,31 +137,30 @@ TEST_CASE("rough lobes are those of the equations in double, and reciprocal") {
   for (std::size_t i = 0; i < there.size(); ++i) {
     const auto alpha = static_cast<float>(random.uniform(0.05, 1)),
                ior = static_cast<float>(random.uniform(1.1, 2.5));
-    const Vec3 v = random_direction(random), leaving = random_direction(random);
-    there[i] = {to_float4(-v, alpha), to_float4(leaving, ior), {}};
-    back[i] = {to_float4(-leaving, alpha), to_float4(v, ior), {}};
+    const Vec3 v = random_direction(random), wo = random_direction(random);
+    there[i] = {to_float4(-v, alpha), to_float4(wo, ior), {}};
+    back[i] = {to_float4(-wo, alpha), to_float4(v, ior), {}};
   }
   for (const uint kind : {MATERIAL_GLASS, MATERIAL_CONDUCTOR}) {
     CAPTURE(kind);
     const auto values = lobe(there, kind), returned = lobe(back, kind);
     std::size_t wrong = 0, unreciprocal = 0, refracted = 0, reflected = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
-      const Vec3 v = -to_vec3(there[i].wi), leaving = to_vec3(there[i].leaving);
-      const double side = v.z > 0 ? 1 : -1, ior = there[i].leaving.w, eta = side > 0 ? ior : 1 / ior;
+      const Vec3 v = -to_vec3(there[i].wi), wo = to_vec3(there[i].wo);
+      const double side = v.z > 0 ? 1 : -1, ior = there[i].wo.w, eta = side > 0 ? ior : 1 / ior;
       RoughLobeOracle oracle{there[i].wi.w, eta, kind == MATERIAL_GLASS};
       if (kind == MATERIAL_CONDUCTOR) oracle.eta = {double(0.2f), double(3.9f)};
-      const auto exact = oracle.evaluate({v.x, v.y, side * v.z}, {leaving.x, leaving.y, side * leaving.z});
+      const auto exact = oracle.evaluate({v.x, v.y, side * v.z}, {wo.x, wo.y, side * wo.z});
       // Where microfacets are seen edge-on or light is all but totally reflected, rounding counts for more.
-      if (std::fabs(v.z) < 0.01 || std::fabs(leaving.z) < 0.01 || (exact.pdf > 0 && exact.cosine < 0.03))
-        continue;
+      if (std::fabs(v.z) < 0.01 || std::fabs(wo.z) < 0.01 || (exact.pdf > 0 && exact.cosine < 0.03)) continue;
       if (kind == MATERIAL_GLASS && std::fabs(eta * eta - 1 + exact.cosine * exact.cosine) < 0.02) continue;
-      reflected += exact.pdf > 0 && side * leaving.z > 0;
-      refracted += exact.pdf > 0 && side * leaving.z < 0;
+      reflected += exact.pdf > 0 && side * wo.z > 0;
+      refracted += exact.pdf > 0 && side * wo.z < 0;
       wrong += !(std::fabs(values[i].value.x - exact.value) <= 1e-3 * exact.value);
       wrong += !(std::fabs(values[i].value.w - exact.pdf) <= 1e-3 * exact.pdf);
       // f / eta^2 is symmetric (Veach 1997, 5.2): radiance that enters the denser side is compressed.
-      const double f = values[i].value.x / std::fabs(leaving.z), g = returned[i].value.x / std::fabs(v.z);
-      const double scale = side * leaving.z > 0 ? 1 : eta * eta;
+      const double f = values[i].value.x / std::fabs(wo.z), g = returned[i].value.x / std::fabs(v.z);
+      const double scale = side * wo.z > 0 ? 1 : eta * eta;
       unreciprocal += !(std::fabs(f * scale - g) <= 2e-3 * std::max(f * scale, g) + 1e-12);
     }
     CHECK(wrong == 0);
@@ -191,9 +190,11 @@ TEST_CASE("the density of a rough lobe integrates to 1 but for what ends under t
           weights += output.weight.x;
         }
         const double count = static_cast<double>(inputs.size());
-        // The share of samples that go on, within five of its standard deviations and the quadrature's error.
-        const double share = kept / count;
-        CHECK(std::fabs(4 * M_PI * sum / count - share) < 5 * std::sqrt(share * (1 - share) / count) + 2e-3);
+        // The fraction of samples that go on, within five of its standard deviations and the quadrature's
+        // error.
+        const double fraction = kept / count;
+        CHECK(std::fabs(4 * M_PI * sum / count - fraction) <
+              5 * std::sqrt(fraction * (1 - fraction) / count) + 2e-3);
         // Both estimate how much radiance the lobe reflects.
         CHECK(4 * M_PI * value / count == Approx(weights / count).epsilon(5e-3));
       }
@@ -216,9 +217,9 @@ TEST_CASE("sampled directions have the density that they state") {
         double all = 0;
         for (std::size_t i = 0; i < grid.size(); ++i) {
           const std::size_t row = i / (2 * rows), column = i % (2 * rows);
-          const double share = 4 * M_PI * densities[i].value.w / static_cast<double>(grid.size());
-          histogram.probabilities[row / refinement * 2 * bins_across + column / refinement] += share;
-          all += share;
+          const double probability = 4 * M_PI * densities[i].value.w / static_cast<double>(grid.size());
+          histogram.probabilities[row / refinement * 2 * bins_across + column / refinement] += probability;
+          all += probability;
         }
         histogram.probabilities.back() = std::max(0.0, 1 - all);  // paths that end
         for (auto& input : inputs)

@@ -29,8 +29,8 @@ kernel void seen(SCENE_PARAMETERS, global const float4 *targets, global float4 *
 }
 )";
 
-/// A lamp, a sky, and balls of glass, of glass in a mirror's view, of coating and of absorbing, dispersing
-/// glass.
+/// A lamp, a sky, and balls of glass, of glass in a mirror's view, of coated diffuse and of absorbing,
+/// dispersing glass.
 Scene balls() {
   std::string materials, objects;
   double x = -3.6;
@@ -50,7 +50,7 @@ Scene balls() {
   add("amber", R"("type": "glass", "cauchy": [1.5, 0.01], "absorption": [0.1, 0.3, 0.6])");
   add("rough", R"("type": "glass", "ior": 1.5, "roughness": 0.3)");
   add("faint", R"("type": "glass", "cauchy": [1.0, 0.01], "roughness": 0.3)");
-  add("varnish", R"("type": "plastic", "color": [0.2, 0.4, 0.6])");
+  add("coated", R"("type": "plastic", "color": [0.2, 0.4, 0.6])");
   add("black", R"("type": "plastic", "color": [0, 0, 0])");
   add("gold", R"("type": "conductor", "eta": [0.2, 0.4, 1.4], "k": [3.9, 2.4, 1.6])");
   return scene_from_text(R"({
@@ -141,13 +141,14 @@ TEST_CASE("looking along unlikely lobes leaves what paths see as it is, and take
 }
 
 TEST_CASE("a look ends at glass that its index at one wavelength makes rough") {
-  // Varnish reflects a lamp that lies behind a ball whose index is that of air but for dispersion.
+  // A coated diffuse box reflects a lamp that lies behind a ball whose index is that of air but for
+  // dispersion.
   const Scene scene = scene_from_text(R"({
     "max_depth": 8, "camera": {"position": [0, 1, 4], "target": [0, 0, 0], "fov": 60},
-    "materials": {"varnish": {"type": "plastic", "color": [0, 0, 0]},
+    "materials": {"coated": {"type": "plastic", "color": [0, 0, 0]},
                   "faint": {"type": "glass", "cauchy": [1.0, 0.01], "roughness": 0.3},
                   "lamp": {"type": "diffuse", "color": [0, 0, 0], "emission": [40, 50, 60]}},
-    "objects": [{"type": "box", "material": "varnish", "size": [4, 0.2, 4],
+    "objects": [{"type": "box", "material": "coated", "size": [4, 0.2, 4],
                  "transform": [{"type": "shift", "x": 0, "y": -0.1, "z": 0}]},
                 {"type": "sphere", "material": "faint", "radius": 0.5,
                  "transform": [{"type": "shift", "x": 0, "y": 1, "z": -4}]},

@@ -22,8 +22,8 @@ kernel void draw(global const ProjectionCell *cells, global float4 *drawn, uint 
   if (i >= count) return;
   RandomStream stream = {seed, 0, i};
   real4 random = random4(stream, DIM_EMISSION);
-  real u = random.x, v = random.y, share = aim(cells, square, random.z, &u, &v);
-  drawn[i] = (float4)(u, v, share, projection_cell(u, v));
+  real u = random.x, v = random.y, weight = aim(cells, square, random.z, &u, &v);
+  drawn[i] = (float4)(u, v, weight, projection_cell(u, v));
 }
 kernel void squares(global uint *found, uint emitters) {
   uint i = get_global_id(0);
@@ -31,9 +31,9 @@ kernel void squares(global uint *found, uint emitters) {
 }
 )";
 
-constexpr double share = 0.3;
+constexpr double aimed_fraction = 0.3;
 
-/// Scouts that landed by a few cells at a corner, at a border and within.
+/// Pilot paths that left by a few cells at a corner, at a border and within.
 std::vector<cl_uint> landed_by(RandomInputs& random) {
   std::vector<cl_uint> deposited(PROJECTION_CELLS);
   for (const auto& [row, column] : {std::pair{0, 0}, {0, 17}, {20, 31}, {11, 9}, {12, 9}, {12, 10}})
@@ -60,7 +60,8 @@ std::vector<double> wanted(const std::vector<cl_uint>& deposited) {
           sum += here;
         }
   for (double& cell : result)
-    cell = sum > 0 ? (1 - share) / PROJECTION_CELLS + share * cell / sum : 1.0 / PROJECTION_CELLS;
+    cell = sum > 0 ? (1 - aimed_fraction) / PROJECTION_CELLS + aimed_fraction * cell / sum
+                   : 1.0 / PROJECTION_CELLS;
   return result;
 }
 
@@ -122,12 +123,12 @@ Spread spread_of(bool sun, bool aimed) {
 TEST_CASE("cells are as likely as what landed in and beside them asks, and carry the rest of the flux") {
   RandomInputs random(20261127);
   for (const auto& deposited : {landed_by(random), std::vector<cl_uint>(PROJECTION_CELLS)}) {
-    const auto cells = projection_cells(deposited, share);
+    const auto cells = projection_cells(deposited, aimed_fraction);
     const auto expected = wanted(deposited), table = made(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       CAPTURE(i, random.seed);
       CHECK(table[i] == Approx(expected[i]).epsilon(1e-4));
-      CHECK(static_cast<double>(cells[i].share) * expected[i] * PROJECTION_CELLS == Approx(1).epsilon(1e-5));
+      CHECK(static_cast<double>(cells[i].weight) * expected[i] * PROJECTION_CELLS == Approx(1).epsilon(1e-5));
     }
   }
 }
@@ -135,8 +136,9 @@ TEST_CASE("cells are as likely as what landed in and beside them asks, and carry
 TEST_CASE("what is drawn follows the cells, is even within each, and bears the flux of all on average") {
   RandomInputs random(7);
   const auto deposited = landed_by(random);
-  std::vector<ProjectionCell> cells = projection_cells(std::vector<cl_uint>(PROJECTION_CELLS), share);
-  const auto second = projection_cells(deposited, share);
+  std::vector<ProjectionCell> cells =
+      projection_cells(std::vector<cl_uint>(PROJECTION_CELLS), aimed_fraction);
+  const auto second = projection_cells(deposited, aimed_fraction);
   cells.insert(cells.end(), second.begin(), second.end());
   auto program = build_test_program(source);
   const cl_uint count = 1 << 20;

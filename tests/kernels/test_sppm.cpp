@@ -98,7 +98,7 @@ TEST_CASE("the radius follows equations (8) and (9) over many passes") {
 TEST_CASE("one update is right for any state, and no photon changes no bit") {
   RandomInputs random(61);
   constexpr std::size_t count = 1 << 20;
-  // Equation (9) moves R^2 by a share known to a few roundings, also where alpha leaves next to nothing of
+  // Equation (9) moves R^2 by a fraction known to a few roundings, also where alpha leaves next to nothing of
   // it.
   for (const float alpha : {1e-6f, 0.01f, 0.5f, 0.7f, 0.99f, 0.999999f}) {
     CAPTURE(alpha);

@@ -164,7 +164,7 @@ TEST_CASE("cone_uniform is uniform within its cone, narrow or wide") {
       // 1 - cos = |v - axis|^2 / 2 without cancellation.
       const Vec3 chord = normalize(v) - exact_axis, local = frame.to_local(v);
       const double drop = dot(chord, chord) / 2;
-      // Rounding of v by 2^-24 is a share of 4e-5 of the narrowest cone's opening angle.
+      // Rounding of v by 2^-24 is a fraction of 4e-5 of the narrowest cone's opening angle.
       histogram.add(bins.bin(drop / static_cast<double>(axis.w), turn(local.y, local.x), 4e-4));
     }
     CHECK(wrong == 0);

@@ -25,8 +25,8 @@ std::vector<PixelError> many_pixels(std::mt19937& engine) {
   return pixels;
 }
 
-/// The share of pixels off by less than `error` times what they are judged against, as drawn.
-double share_within(const std::vector<PixelError>& pixels, double error, std::mt19937& engine) {
+/// The fraction of pixels off by less than `error` times what they are judged against, as drawn.
+double fraction_within(const std::vector<PixelError>& pixels, double error, std::mt19937& engine) {
   double mean = 0, within = 0;
   for (const auto& pixel : pixels) mean += pixel.luminance / static_cast<double>(pixels.size());
   std::normal_distribution<double> normal;
@@ -51,14 +51,14 @@ std::vector<PixelError> even_pixels(double noise, double bias) {
 
 }  // namespace
 
-TEST_CASE("the error of a picture is what its share of pixels stays below") {
+TEST_CASE("the error of a picture is what its fraction of pixels stays below") {
   CAPTURE(seed);
   std::mt19937 engine(seed);
   const auto pixels = many_pixels(engine);
   for (const double confidence : {0.5, 0.9, 0.99}) {
     const auto error = picture_error(pixels, confidence);
     REQUIRE(error);
-    CHECK(share_within(pixels, error->error, engine) == Approx(confidence).margin(0.006));
+    CHECK(fraction_within(pixels, error->error, engine) == Approx(confidence).margin(0.006));
     CHECK(error->noise < error->error);
     CHECK(error->bias < error->error);
   }

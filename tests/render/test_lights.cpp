@@ -132,7 +132,7 @@ TEST_CASE("a white ball under an even sky of 1 cannot be told from it") {
   CHECK(mean_value(render_with(photons, Integrator::sppm, 12).picture) == Approx(1).margin(8e-3));
 }
 
-TEST_CASE("under a sky that is white above and black below a tilted plate sees its share") {
+TEST_CASE("under a sky that is white above and black below a tilted plate sees its part of the sky") {
   Environment sky;
   sky.map.width = 128;
   sky.map.height = 64;

@@ -17,7 +17,7 @@ constexpr int seeds = 24;
 
 struct Errors {
   double truth = 0, noise = 0, half_difference = 0;  // root mean squares, of luminance
-  double within = 1;  // of the worst seed: the share of its uncertain pixels within 1.64 pooled_noise
+  double within = 1;  // of the worst seed: the fraction of its uncertain pixels within 1.64 pooled_noise
 };
 
 std::vector<double> luminances(const Picture& picture) {
@@ -30,7 +30,7 @@ std::vector<double> luminances(const Picture& picture) {
 Errors errors_of(const Scene& scene, const std::vector<double>& truth) {
   const TemporaryFolder folder;
   Errors errors;
-  const double share = 1.0 / (seeds * static_cast<double>(truth.size()));
+  const double weight = 1.0 / (seeds * static_cast<double>(truth.size()));
   for (int seed = 1; seed <= seeds; ++seed) {
     RenderOptions options;
     options.seed = static_cast<std::uint32_t>(seed);
@@ -40,9 +40,9 @@ Errors errors_of(const Scene& scene, const std::vector<double>& truth) {
     double uncertain = 0, within = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const double off = pixels[i].luminance - truth[i];
-      errors.truth += share * off * off;
-      errors.noise += share * std::pow(static_cast<double>(pixels[i].noise), 2);
-      errors.half_difference += share * std::pow(static_cast<double>(pixels[i].half_difference), 2);
+      errors.truth += weight * off * off;
+      errors.noise += weight * std::pow(static_cast<double>(pixels[i].noise), 2);
+      errors.half_difference += weight * std::pow(static_cast<double>(pixels[i].half_difference), 2);
       const auto pooled = static_cast<double>(pixels[i].pooled_noise);
       if (off == 0 && pooled == 0) continue;
       ++uncertain;

@@ -193,8 +193,8 @@ TEST_CASE("Metropolis photons give the same bits in any order of execution, and 
     scene.renderer.passes = 6;
     const RenderResult result = render_scene(scene, device, {});
     REQUIRE(result.statistics.seeds);
-    CHECK(result.statistics.seeds->share > 0.001);
-    CHECK(result.statistics.seeds->share < 0.06);
+    CHECK(result.statistics.seeds->fraction > 0.001);
+    CHECK(result.statistics.seeds->fraction < 0.06);
     CHECK(result.statistics.seeds->copies > 3);
     return result.picture.rgb;
   };

@@ -66,7 +66,7 @@ TEST_CASE("clear dielectrics in contact lose and add no light") {
   const std::string upper = glass_box(1, 1.5, 0, 0, 0.5), lower = glass_box(1, 1.33, 0, 0, -0.5);
   check_mean(scene_text(upper + "," + lower, along_z), one, 2e-3, 256);
   check_mean(scene_text(lower + "," + upper, aslant), one, 2e-3, 256);
-  // Overlapping, within each other, and a coat as thin as floats can tell.
+  // Overlapping, within each other, and a shell as thin as floats can tell.
   check_mean(scene_text(upper + "," + glass_box(1, 1.33, 0, 0, -0.3), aslant), one, 2e-3, 256);
   check_mean(scene_text(glass_box(1.2, 1.33, 0, 0, 0) + "," + glass_sphere(0.4, 1.5, 0, 0, 0) + "," +
                             glass_sphere(0.2, 1.0, 0, 0, 0),

@@ -16,7 +16,7 @@ namespace {
 struct PrecisionComparison {
   double noise;       // relative MSE of the float picture, by a second seed
   double difference;  // relative MSE between float and double
-  double apart;       // share of the pixels that differ by 1% of the picture's mean or more
+  double apart;       // fraction of the pixels that differ by 1% of the picture's mean or more
   unsigned seeds = 1;
   double ratio() const { return noise / std::max(difference, 1e-300); }
 };

@@ -10,8 +10,8 @@ using namespace causticl;
 
 namespace {
 
-/// The share of a channel's density below a wavelength, by Simpson's rule.
-double share_below(int channel, double wavelength) {
+/// The fraction of a channel's density below a wavelength, by Simpson's rule.
+double fraction_below(int channel, double wavelength) {
   const auto integral = [&](double to) {
     constexpr int steps = 20000;
     double sum = 0;
@@ -31,7 +31,7 @@ TEST_CASE("channels stand for wavelengths in proportion to their responses") {
       CAPTURE(u, channel, wavelengths[channel]);
       CHECK(wavelengths[channel] >= 380);
       CHECK(wavelengths[channel] <= 720);
-      CHECK(share_below(channel, wavelengths[channel]) == Approx(u).margin(1e-5));
+      CHECK(fraction_below(channel, wavelengths[channel]) == Approx(u).margin(1e-5));
     }
   }
   const auto median = channel_wavelengths(0.5);
@@ -49,7 +49,8 @@ TEST_CASE("the wavelengths of any range of passes fill the spectrum evenly") {
       std::sort(green.begin(), green.end());
       double worst = 0;
       for (std::size_t i = 0; i < green.size(); ++i)
-        worst = std::max(worst, std::fabs(share_below(1, green[i]) - (static_cast<double>(i) + 0.5) / 256));
+        worst =
+            std::max(worst, std::fabs(fraction_below(1, green[i]) - (static_cast<double>(i) + 0.5) / 256));
       CAPTURE(seed, first);
       CHECK(worst < 0.015);
     }

@@ -48,14 +48,14 @@ void check_cases(const std::set<int>& hard_cases, SelftestOptions::Effort effort
 TEST_CASE("every hard case has a check") {
   std::set<int> numbers;
   std::set<std::string> names;
-  std::map<int, double> shares;
+  std::map<int, double> fractions;
   for (const auto& check : stability_checks()) {
     numbers.insert(check.hard_case);
     CHECK(names.insert(check.name).second);
     CHECK(check.input_cost > 0);
-    shares[check.hard_case] += check.share;
+    fractions[check.hard_case] += check.input_fraction;
   }
-  for (const auto& [hard_case, sum] : shares) CHECK(sum == Approx(1));
+  for (const auto& [hard_case, sum] : fractions) CHECK(sum == Approx(1));
   CHECK(numbers == all_cases());
 }
 
