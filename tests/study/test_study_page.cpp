@@ -53,8 +53,8 @@ TEST_CASE("the page holds the numbers of the CSV") {
         else
           cells.back() += c;
       REQUIRE(cells.size() == 12);
-      CHECK(cells[0] == run.at("knob"));
-      CHECK(cells[1] == run.at("value"));
+      CHECK(cells[0] == run.at("knob").get<std::string>());
+      CHECK(cells[1] == run.at("value").get<std::string>());
       CHECK(std::stod(cells[4]) == sample.at("passes").get<double>());
       CHECK(std::stod(cells[6]) == sample.at("seconds").get<double>());
       CHECK(std::stod(cells[7]) == sample.at("relative_mse").get<double>());
