@@ -1,8 +1,8 @@
 // How many paths go in a batch.
 #include "core/prelude.cl"
 
-// Paths of a wave at most: those of a usual work-group where the device wants loops, as PoCL does; else a work-item's
-// own. What a wave holds should fit into the first cache, where arrays with room for more would also be in each other's
+// Paths of a batch at most: those of a usual work-group where the device wants loops, as PoCL does; else a work-item's
+// own. What a batch holds should fit into the first cache, where arrays with room for more would also be in each other's
 // way.
 #if defined(POCL_DEVICE_ADDRESS_BITS)
 #define STREAM_CAPACITY 64u

@@ -8,22 +8,22 @@
 #include "traversal/brute_force.cl"
 #include "traversal/kdtree_stream.cl"
 #if defined(STREAM_BRUTE_FORCE) || defined(KDTREE_STREAMS)
-#define STREAM_BATCHED  // all rays of a wave at once
+#define STREAM_BATCHED  // all rays of a batch at once
 #endif
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
 
-// The random numbers of photon i of the wave.
-INLINE RandomStream stream_random(const Params *params, const PhotonStream *wave, uint i) {
-  RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, wave->index[i],
-                         HAS(EFFECT_GUIDED_PHOTONS) ? wave->copy[i] : 0, HAS(EFFECT_GUIDED_PHOTONS) ? wave->fresh[i] : 0};
+// The random numbers of photon i of the batch.
+INLINE RandomStream stream_random(const Params *params, const PhotonStream *batch, uint i) {
+  RandomStream stream = {params->seed ^ PHOTON_SEED, params->pass, batch->index[i],
+                         HAS(EFFECT_GUIDED_PHOTONS) ? batch->copy[i] : 0, HAS(EFFECT_GUIDED_PHOTONS) ? batch->fresh[i] : 0};
   return stream;
 }
 
-// Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the wave.
+// Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the batch.
 OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
-                       uint alive, uint count, PhotonStream *wave, volatile global Counters *counters) {
+                       uint alive, uint count, PhotonStream *batch, volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
   global const ProjectionCell *cells = aims->cells;
@@ -33,23 +33,23 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
     PhotonStart start = {first + i - alive, 0, 0, 0, 1};
     if (HAS(EFFECT_GUIDED_PHOTONS)) {
       start = guided_start(guide, &params, first + i - alive);
-      wave->copy[i] = start.copy;
-      wave->fresh[i] = start.fresh;
-      wave->seed[i] = start.seed;
-      wave->useful[i] = 0;
+      batch->copy[i] = start.copy;
+      batch->fresh[i] = start.fresh;
+      batch->seed[i] = start.seed;
+      batch->useful[i] = 0;
     }
-    wave->index[i] = start.path;
-    wave->bounce[i] = 0;
-    wave->flux[0][i] = start.weight;  // until the photon has a flux of its own
+    batch->index[i] = start.path;
+    batch->bounce[i] = 0;
+    batch->flux[0][i] = start.weight;  // until the photon has a flux of its own
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0) {
-      RandomStream stream = stream_random(&params, wave, i);
+      RandomStream stream = stream_random(&params, batch, i);
       real4 choice = random4(stream, DIM_EMITTER);
       uint cell = emission_cell(emission, emission_cells, random4(stream, DIM_EMISSION_CELL).x);
-      wave->flux_rg[i] = cell;  // until the photon has a record
-      wave->flux[0][i] *= emission[cell].weight;
-      wave->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
+      batch->flux_rg[i] = cell;  // until the photon has a record
+      batch->flux[0][i] *= emission[cell].weight;
+      batch->primitive[i] = emitter_choose(&scene, emission_number(emission + cell, 0, choice.x), choice.w);
     } else {
-      wave->primitive[i] = photon_emitter(&scene, stream_random(&params, wave, i));
+      batch->primitive[i] = photon_emitter(&scene, stream_random(&params, batch, i));
     }
   }
   const real3 scale = channel_scale(params.channel_shifts);
@@ -57,19 +57,19 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = alive; i < alive + count; ++i) {
-    RandomStream stream = stream_random(&params, wave, i);
+    RandomStream stream = stream_random(&params, batch, i);
     real4 random = random4(stream, DIM_EMISSION), choice = random4(stream, DIM_EMITTER);
     real u = random.x, v = random.y, weight = 1;
-    uint emitter = wave->primitive[i];
+    uint emitter = batch->primitive[i];
     if (HAS(EFFECT_GUIDED_PHOTONS) && emission_cells > 0)
-      choice = emission_numbers(emission + wave->flux_rg[i], choice, &u, &v);
+      choice = emission_numbers(emission + batch->flux_rg[i], choice, &u, &v);
     if (HAS(EFFECT_AIMED_PHOTONS))
       weight = aim(cells, projection_square(emitter, params.emitter_count), random.z, &u, &v);
     real3 flux;
     Ray ray = photon_emit_from(&scene, emitter, choice, u, v, &flux);
     flux = mul3(scale, flux);
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(weight, flux);
-    if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(wave->flux[0][i], flux);
+    if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(batch->flux[0][i], flux);
     PhotonState photon;
     photon.ray = ray, photon.flux = flux;
     photon.prefix = PREFIX_DIRECT, photon.mark = 0, photon.interior = interior_none();
@@ -80,28 +80,28 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
       if (nested(&scene)) photon.interior = interior_of_stack(&scene, &photon.media.stack);
       count_diagnostics(diagnostics, counters);
     }
-    wave->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
-    stream_put(wave, i, &photon);
+    batch->events[i] = max_component(flux) > 0 ? EVENT_ALIVE : 0u;
+    stream_put(batch, i, &photon);
   }
 }
 
 // Finds where each photon's ray ends.
-OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *wave, volatile global Counters *counters) {
+OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *batch, volatile global Counters *counters) {
   const Geometry *g = &scene->geometry;
   for (uint i = 0; i < count; ++i) {
     Hit hit = hit_none(INFINITY);
 #ifdef STREAM_BATCHED
-    planes_closest(g, stream_ray(wave, i), &hit);
+    planes_closest(g, stream_ray(batch, i), &hit);
 #else
-    geometry_closest(g, stream_ray(wave, i), &hit);
+    geometry_closest(g, stream_ray(batch, i), &hit);
     count_diagnostics(hit.diagnostics, counters);
 #endif
-    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+    batch->t[i] = hit.t, batch->u[i] = hit.u, batch->v[i] = hit.v, batch->primitive[i] = hit.primitive;
   }
 #ifdef STREAM_BATCHED
-  RayArrays rays = {{wave->origin[0], wave->origin[1], wave->origin[2]},
-                    {wave->direction[0], wave->direction[1], wave->direction[2]},
-                    wave->t, wave->u, wave->v, wave->primitive};
+  RayArrays rays = {{batch->origin[0], batch->origin[1], batch->origin[2]},
+                    {batch->direction[0], batch->direction[1], batch->direction[2]},
+                    batch->t, batch->u, batch->v, batch->primitive};
 #endif
 #if defined(STREAM_BRUTE_FORCE)
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
@@ -115,17 +115,17 @@ OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *wave, vo
 }
 
 // Puts what photons in a gap of no width meet next in the place of what their rays have met.
-OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *wave) {
+OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *batch) {
   for (uint i = 0; i < count; ++i) {
-    if (!nested(scene) || wave->media[i].contact == CONTACT_NONE) continue;
+    if (!nested(scene) || batch->media[i].contact == CONTACT_NONE) continue;
     Hit hit = hit_none(INFINITY);
-    media_closest(scene, wave->media + i, stream_ray(wave, i), &hit);
-    wave->t[i] = hit.t, wave->u[i] = hit.u, wave->v[i] = hit.v, wave->primitive[i] = hit.primitive;
+    media_closest(scene, batch->media + i, stream_ray(batch, i), &hit);
+    batch->t[i] = hit.t, batch->u[i] = hit.u, batch->v[i] = hit.v, batch->primitive[i] = hit.primitive;
   }
 }
 
 // Takes each photon past its hit.
-OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint count, PhotonStream *wave,
+OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint count, PhotonStream *batch,
                           volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
@@ -133,26 +133,26 @@ OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint coun
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = stream_random(&params, wave, i);
-    Hit hit = {wave->t[i], wave->primitive[i], wave->u[i], wave->v[i], 0};
+    RandomStream stream = stream_random(&params, batch, i);
+    Hit hit = {batch->t[i], batch->primitive[i], batch->u[i], batch->v[i], 0};
     uint events = 0;
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
-      PhotonState photon = stream_get(wave, i);
+      PhotonState photon = stream_get(batch, i);
       Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_interact(&scene, &params, stream, wave->bounce[i], hit, &photon, &record);
+      events = photon_interact(&scene, &params, stream, batch->bounce[i], hit, &photon, &record);
       if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
-      stream_put(wave, i, &photon);
-      stream_put_record(wave, i, &record);
+      stream_put(batch, i, &photon);
+      stream_put_record(batch, i, &record);
     }
-    wave->events[i] = events;
+    batch->events[i] = events;
   }
 }
 
 // Counts the pilot paths that land as parts of caustics, by the cell that they left by.
-OUTLINE void stream_learn(const Scene *scene, const Params *params, const PhotonStream *wave, uint count, const Aim *aim) {
+OUTLINE void stream_learn(const Scene *scene, const Params *params, const PhotonStream *batch, uint count, const Aim *aim) {
   for (uint i = 0; i < count; ++i) {
-    if (!(wave->events[i] & EVENT_STORED) || (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON))) continue;
-    RandomStream stream = stream_random(params, wave, i);
+    if (!(batch->events[i] & EVENT_STORED) || (batch->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON))) continue;
+    RandomStream stream = stream_random(params, batch, i);
     real4 random = random4(stream, DIM_EMISSION);
     atomic_inc(aim->deposited + projection_square(photon_emitter(scene, stream), scene->emitter_count) +
                projection_cell(random.x, random.y));
@@ -160,16 +160,16 @@ OUTLINE void stream_learn(const Scene *scene, const Params *params, const Photon
 }
 
 // Stores the records of the last event and counts what went wrong there.
-OUTLINE void stream_deposit(uint count, const PhotonStream *wave, global Photon *photons, uint capacity,
+OUTLINE void stream_deposit(uint count, const PhotonStream *batch, global Photon *photons, uint capacity,
                         volatile global Counters *counters) {
   // Which events left a record is as good as random: a list without branches costs a third of asking one at a time.
   uint kept[STREAM_CAPACITY], stored = 0, copies = 0, indirect = 0, saturated = 0, non_finite = 0;
   for (uint i = 0; i < count; ++i) {
-    uint events = wave->events[i];
+    uint events = batch->events[i];
     bool stays = (events & EVENT_STORED) != 0;
     kept[stored] = i;
     stored += stays;
-    bool is_indirect = stays && (wave->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON;
+    bool is_indirect = stays && (batch->normal[i] & (IN_MEDIUM | INDIRECT_PHOTON)) == INDIRECT_PHOTON;
     indirect += is_indirect;
     if (HAS(EFFECT_SMOOTH)) {
       uint more = stays ? events >> EVENT_COPIES_SHIFT : 0;
@@ -187,59 +187,59 @@ OUTLINE void stream_deposit(uint count, const PhotonStream *wave, global Photon 
   uint room = slot < capacity ? min(stored + copies, capacity - slot) : 0, next = stored;
   for (uint k = 0; k < min(stored, room); ++k) {
     uint i = kept[k];
-    Photon photon = {{wave->position[0][i], wave->position[1][i], wave->position[2][i]},
-                     wave->normal[i], wave->flux_rg[i], wave->flux_b[i]};
+    Photon photon = {{batch->position[0][i], batch->position[1][i], batch->position[2][i]},
+                     batch->normal[i], batch->flux_rg[i], batch->flux_b[i]};
     photons[slot + k] = photon;
     if (HAS(EFFECT_SMOOTH))
-      for (uint more = wave->events[i] >> EVENT_COPIES_SHIFT; more > 0 && next < room; --more) photons[slot + next++] = photon;
+      for (uint more = batch->events[i] >> EVENT_COPIES_SHIFT; more > 0 && next < room; --more) photons[slot + next++] = photon;
   }
 }
 
 // Moves those of the photons from `first` to `end` that go on behind the `first` first. Returns how many there are
 // then.
-OUTLINE uint stream_compact(uint first, uint end, PhotonStream *wave) {
+OUTLINE uint stream_compact(uint first, uint end, PhotonStream *batch) {
   uint alive = first;
   for (uint i = first; i < end; ++i) {
-    stream_move(wave, i, alive);
-    alive += wave->events[i] & EVENT_ALIVE;
+    stream_move(batch, i, alive);
+    alive += batch->events[i] & EVENT_ALIVE;
   }
   return alive;
 }
 
-// Traces photons [first, end) of the pass, a wave of them one event at a time; new ones take the places of those that
+// Traces photons [first, end) of the pass, a batch of them one event at a time; new ones take the places of those that
 // have ended. Returns the number of rays.
 OUTLINE uint stream_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
                         uint end, global Photon *photons, volatile global Counters *counters) {
-  PhotonStream wave;
+  PhotonStream batch;
   uint rays = 0, alive = 0;
   if (params->max_depth == 0) return 0;
   while (first < end || alive > 0) {
     uint room = (STREAM_CAPACITY - alive) / STREAM_STEP * STREAM_STEP, fresh = min(end - first, room);
     if (fresh > 0 && (room >= PATH_REGENERATION || alive == 0)) {
-      stream_emit(scene, params, guide, aim, first, alive, stream_padded(fresh), &wave, counters);
+      stream_emit(scene, params, guide, aim, first, alive, stream_padded(fresh), &batch, counters);
       first += fresh;
-      alive = stream_compact(alive, alive + fresh, &wave);
+      alive = stream_compact(alive, alive + fresh, &batch);
     }
     rays += alive;
-    stream_trace(scene, alive, &wave, counters);
-    if (HAS(EFFECT_NESTED)) stream_contacts(scene, alive, &wave);
+    stream_trace(scene, alive, &batch, counters);
+    if (HAS(EFFECT_NESTED)) stream_contacts(scene, alive, &batch);
     uint padded = stream_padded(alive);
-    for (uint i = alive; i < padded; ++i) wave.primitive[i] = HIT_NONE;
-    stream_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &wave, counters);
+    for (uint i = alive; i < padded; ++i) batch.primitive[i] = HIT_NONE;
+    stream_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &batch, counters);
     if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_PILOT_PATHS)
-      stream_guide(guide, params, alive, &wave, counters);
+      stream_guide(guide, params, alive, &batch, counters);
     if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_FOR_PROJECTION_MAP)
-      stream_learn(scene, params, &wave, alive, aim);
+      stream_learn(scene, params, &batch, alive, aim);
     else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
-      stream_deposit(alive, &wave, photons, params->photon_capacity, counters);
-    for (uint i = 0; i < alive; ++i) ++wave.bounce[i];
-    alive = stream_compact(0, alive, &wave);
+      stream_deposit(alive, &batch, photons, params->photon_capacity, counters);
+    for (uint i = 0; i < alive; ++i) ++batch.bounce[i];
+    alive = stream_compact(0, alive, &batch);
   }
   return rays;
 }
 
 // Traces the photons of a pass. They are appended in any order; those that find the buffer full are counted, so that
-// the host can enlarge it and trace the pass again. Where photons go in waves, one item of a work-group traces
+// the host can enlarge it and trace the pass again. Where photons go in batches, one item of a work-group traces
 // PHOTONS_AN_ITEM for each item of that, if any are left for the group. What follows
 // `params` is asked for by Metropolis photons, and at the end by aimed ones.
 kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile global Counters *counters,

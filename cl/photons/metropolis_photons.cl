@@ -51,32 +51,32 @@ INLINE PhotonStart guided_start(const Guide *guide, const Params *params, uint n
 }
 
 // Decides which records of the last event stay, by where they lie, and keeps the lists of seeds and of accepted copies.
-OUTLINE void stream_guide(const Guide *guide, const Params *params, uint count, PhotonStream *wave,
+OUTLINE void stream_guide(const Guide *guide, const Params *params, uint count, PhotonStream *batch,
                         volatile global Counters *counters) {
   bool learning = params->photon_role == PHOTONS_TO_LEARN_BY, pilot_paths = learning || params->photon_role == PHOTONS_PILOT_PATHS;
   // Light that shadow rays bring teaches nothing.
   uint wanted = learning ? EVENT_STORED : EVENT_STORED | EVENT_DEPOSITED_ELSEWHERE;
   uint seeds = 0;
   for (uint i = 0; i < count; ++i) {
-    if (!(wave->events[i] & wanted)) continue;
-    real3 position = (real3)(wave->position[0][i], wave->position[1][i], wave->position[2][i]);
-    bool visible = !(wave->normal[i] & IN_MEDIUM) && (!learning || lies_in_grid(guide->cells, position)) &&
-                  is_visible(guide->visibility, guide->cells, normal_unpack(wave->normal[i]), position);
-    if (visible == pilot_paths) wave->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
-    if (!visible || wave->useful[i]) continue;
-    wave->useful[i] = pilot_paths ? 2 : 1;  // 2: not in the list yet
+    if (!(batch->events[i] & wanted)) continue;
+    real3 position = (real3)(batch->position[0][i], batch->position[1][i], batch->position[2][i]);
+    bool visible = !(batch->normal[i] & IN_MEDIUM) && (!learning || lies_in_grid(guide->cells, position)) &&
+                  is_visible(guide->visibility, guide->cells, normal_unpack(batch->normal[i]), position);
+    if (visible == pilot_paths) batch->events[i] &= ~(EVENT_STORED | EVENT_SATURATED);
+    if (!visible || batch->useful[i]) continue;
+    batch->useful[i] = pilot_paths ? 2 : 1;  // 2: not in the list yet
     seeds += pilot_paths ? 1 : 0;
     if (params->photon_role != PHOTONS_MUTATED_PATHS) continue;
-    if (guide->seeds[wave->seed[i]].y == wave->bounce[i])
-      atomic_inc(guide->accepted + wave->seed[i]);
+    if (guide->seeds[batch->seed[i]].y == batch->bounce[i])
+      atomic_inc(guide->accepted + batch->seed[i]);
     else
-      wave->events[i] = 0;
+      batch->events[i] = 0;
   }
   if (seeds == 0) return;
   uint slot = list_reserve(seeds, &counters->seeds);
   for (uint i = 0; i < count; ++i) {
-    if (wave->useful[i] != 2) continue;
-    guide->seeds[slot++] = (uint2)(wave->index[i], wave->bounce[i]);
-    wave->useful[i] = 1;
+    if (batch->useful[i] != 2) continue;
+    guide->seeds[slot++] = (uint2)(batch->index[i], batch->bounce[i]);
+    batch->useful[i] = 1;
   }
 }

@@ -7,7 +7,7 @@
 #include "core/stream_size.cl"
 
 // Photons for each item of a work-group, whose first item traces those of all, and places that must be free before new
-// photons join the wave.
+// photons join the batch.
 #define PHOTONS_AN_ITEM 4u
 #define PATH_REGENERATION 16u
 
@@ -19,13 +19,13 @@
 #define EFFECTS_NOT_BATCHED_IN_EMISSION                                                                                      \
   (EFFECT_BEZIER | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_NESTED)
 
-// Whether the rays of a wave meet all primitives in place of walking the tree each: the host asks for it where they are
+// Whether the rays of a batch meet all primitives in place of walking the tree each: the host asks for it where they are
 // few.
 #if defined(BRUTE_FORCE) && STREAM_CAPACITY > 1u
 #define STREAM_BRUTE_FORCE
 #endif
 
-// What befell a photon at one event of its path, as bits.
+// What happened to a photon at one event of its path, as bits.
 #define EVENT_ALIVE 1u       // it goes on
 #define EVENT_STORED 2u      // `deposited` holds its record
 #define EVENT_SATURATED 4u   // that had more flux than it holds
@@ -66,56 +66,56 @@ typedef struct {
   uint useful[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? STREAM_CAPACITY : 1u];  // not 0 where it has landed where the camera sees
 } PhotonStream;
 
-INLINE Ray stream_ray(const PhotonStream *wave, uint i) {
-  Ray ray = {(real3)(wave->origin[0][i], wave->origin[1][i], wave->origin[2][i]),
-             (real3)(wave->direction[0][i], wave->direction[1][i], wave->direction[2][i])};
+INLINE Ray stream_ray(const PhotonStream *batch, uint i) {
+  Ray ray = {(real3)(batch->origin[0][i], batch->origin[1][i], batch->origin[2][i]),
+             (real3)(batch->direction[0][i], batch->direction[1][i], batch->direction[2][i])};
   return ray;
 }
 
-INLINE PhotonState stream_get(const PhotonStream *wave, uint i) {
+INLINE PhotonState stream_get(const PhotonStream *batch, uint i) {
   PhotonState photon;
-  photon.ray = stream_ray(wave, i);
-  photon.flux = (real3)(wave->flux[0][i], wave->flux[1][i], wave->flux[2][i]);
-  photon.mark = wave->mark[i];
-  photon.prefix = HAS(OUTPUT_LIGHT_PASSES) ? wave->prefix[i] : PREFIX_DIRECT;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) photon.interior = wave->interior[i];
-  if (HAS(EFFECT_NESTED)) photon.media = wave->media[i], photon.diagnostics = 0;
+  photon.ray = stream_ray(batch, i);
+  photon.flux = (real3)(batch->flux[0][i], batch->flux[1][i], batch->flux[2][i]);
+  photon.mark = batch->mark[i];
+  photon.prefix = HAS(OUTPUT_LIGHT_PASSES) ? batch->prefix[i] : PREFIX_DIRECT;
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) photon.interior = batch->interior[i];
+  if (HAS(EFFECT_NESTED)) photon.media = batch->media[i], photon.diagnostics = 0;
   return photon;
 }
 
-INLINE void stream_put(PhotonStream *wave, uint i, const PhotonState *photon) {
+INLINE void stream_put(PhotonStream *batch, uint i, const PhotonState *photon) {
   real3 origin = photon->ray.origin, direction = photon->ray.direction, flux = photon->flux;
-  wave->origin[0][i] = origin.x, wave->origin[1][i] = origin.y, wave->origin[2][i] = origin.z;
-  wave->direction[0][i] = direction.x, wave->direction[1][i] = direction.y, wave->direction[2][i] = direction.z;
-  wave->flux[0][i] = flux.x, wave->flux[1][i] = flux.y, wave->flux[2][i] = flux.z;
-  wave->mark[i] = photon->mark;
-  if (HAS(OUTPUT_LIGHT_PASSES)) wave->prefix[i] = photon->prefix;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[i] = photon->interior;
-  if (HAS(EFFECT_NESTED)) wave->media[i] = photon->media;
+  batch->origin[0][i] = origin.x, batch->origin[1][i] = origin.y, batch->origin[2][i] = origin.z;
+  batch->direction[0][i] = direction.x, batch->direction[1][i] = direction.y, batch->direction[2][i] = direction.z;
+  batch->flux[0][i] = flux.x, batch->flux[1][i] = flux.y, batch->flux[2][i] = flux.z;
+  batch->mark[i] = photon->mark;
+  if (HAS(OUTPUT_LIGHT_PASSES)) batch->prefix[i] = photon->prefix;
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) batch->interior[i] = photon->interior;
+  if (HAS(EFFECT_NESTED)) batch->media[i] = photon->media;
 }
 
-INLINE void stream_put_record(PhotonStream *wave, uint i, const Photon *record) {
-  wave->position[0][i] = record->position[0], wave->position[1][i] = record->position[1];
-  wave->position[2][i] = record->position[2];
-  wave->normal[i] = record->normal, wave->flux_rg[i] = record->flux_rg, wave->flux_b[i] = record->flux_b;
+INLINE void stream_put_record(PhotonStream *batch, uint i, const Photon *record) {
+  batch->position[0][i] = record->position[0], batch->position[1][i] = record->position[1];
+  batch->position[2][i] = record->position[2];
+  batch->normal[i] = record->normal, batch->flux_rg[i] = record->flux_rg, batch->flux_b[i] = record->flux_b;
 }
 
 // Moves photon `from` to place `to`.
-INLINE void stream_move(PhotonStream *wave, uint from, uint to) {
+INLINE void stream_move(PhotonStream *batch, uint from, uint to) {
   for (uint k = 0; k < 3; ++k) {
-    wave->origin[k][to] = wave->origin[k][from];
-    wave->direction[k][to] = wave->direction[k][from];
-    wave->flux[k][to] = wave->flux[k][from];
+    batch->origin[k][to] = batch->origin[k][from];
+    batch->direction[k][to] = batch->direction[k][from];
+    batch->flux[k][to] = batch->flux[k][from];
   }
-  wave->index[to] = wave->index[from];
-  wave->bounce[to] = wave->bounce[from];
-  wave->mark[to] = wave->mark[from];
-  if (HAS(OUTPUT_LIGHT_PASSES)) wave->prefix[to] = wave->prefix[from];
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) wave->interior[to] = wave->interior[from];
-  if (HAS(EFFECT_NESTED)) wave->media[to] = wave->media[from];
+  batch->index[to] = batch->index[from];
+  batch->bounce[to] = batch->bounce[from];
+  batch->mark[to] = batch->mark[from];
+  if (HAS(OUTPUT_LIGHT_PASSES)) batch->prefix[to] = batch->prefix[from];
+  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) batch->interior[to] = batch->interior[from];
+  if (HAS(EFFECT_NESTED)) batch->media[to] = batch->media[from];
   if (!HAS(EFFECT_GUIDED_PHOTONS)) return;
-  wave->copy[to] = wave->copy[from];
-  wave->fresh[to] = wave->fresh[from];
-  wave->seed[to] = wave->seed[from];
-  wave->useful[to] = wave->useful[from];
+  batch->copy[to] = batch->copy[from];
+  batch->fresh[to] = batch->fresh[from];
+  batch->seed[to] = batch->seed[from];
+  batch->useful[to] = batch->useful[from];
 }

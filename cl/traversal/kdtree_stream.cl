@@ -1,11 +1,11 @@
-// Traversal of the tree by waves: the hits of rays that go different ways, as those of photons do.
+// Stream traversal of the tree: the hits of rays that go different ways, as those of photons do, a batch at once.
 //
 // A ray alone mostly waits: each step for the last one, and for memory; and where steps differ from ray to ray no
-// processor foresees its branches. Here all rays of a wave take a step of one kind before any takes the next: tests of
+// processor foresees its branches. Here all rays of a batch take a step of one kind before any takes the next: tests of
 // nodes, then of the triangles in leaves, then the ways back. These steps have hardly a branch: what a ray does next it
 // is told by lists, to whose ends every ray is written and where only those stay that are counted. So the steps of
 // several rays overlap in the processor, and what the next ones read is fetched ahead. Every ray visits what it visits
-// in kdtree_closest(), to the same hits to the bit; KD_STEP_LIMIT counts the steps of the wave. Shadow rays, most of
+// in kdtree_closest(), to the same hits to the bit; KD_STEP_LIMIT counts the steps of the batch. Shadow rays, most of
 // which meet nothing on a way that they share, are faster alone.
 //
 // On devices that run the items of a work-group in turn; for float and the watertight test.

@@ -22,9 +22,9 @@ bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& dev
 
 std::string photon_rays_text(const KernelOptions& options, const Device& device) {
   if (options.brute_force) return "sixteen at a time, each meets every primitive";
-  const bool waves = device.has_serial_work_items() && options.precision == Precision::float32 &&
-                     options.triangle_test == TriangleTest::watertight;
-  return waves ? "in streams through the tree" : "one at a time";
+  const bool streams = device.has_serial_work_items() && options.precision == Precision::float32 &&
+                       options.triangle_test == TriangleTest::watertight;
+  return streams ? "in streams through the tree" : "one at a time";
 }
 
 }  // namespace causticl

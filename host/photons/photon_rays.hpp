@@ -9,7 +9,7 @@
 
 namespace causticl {
 
-/// Through the tree, where the items of a work-group run in turn by waves (cl/traversal/kdtree_stream.cl), or
+/// Through the tree, where the items of a work-group run in turn, in batches (cl/traversal/kdtree_stream.cl), or
 /// sixteen at a time by brute force (cl/traversal/brute_force.cl); the picture is the same. `automatic`: by
 /// brute force on CPUs where primitives are few.
 enum class PhotonRays { automatic, tree, brute_force };

@@ -136,7 +136,7 @@ class HardRays {
 };
 
 /// The same test of the same triangle gives the same bits, so distances must be equal; at equal distances
-/// either triangle will do. Any hit must be found for shadow rays as well, and packets and waves must find
+/// either triangle will do. Any hit must be found for shadow rays as well, and packets and batches must find
 /// the same triangle.
 template <std::vector<TriangleMesh> (*meshes_of)()>
 CheckResult equals_brute_force(CheckContext& context) {

@@ -89,7 +89,7 @@ OUTLINE MeshHit closest_by_brute_force(global const MeshRay *in, uint own, MESHE
   return mesh_hit(blocks + range.first_block, hit);
 }
 #ifdef KDTREE_STREAMS
-// As one of a wave that go anywhere.
+// As one of a batch that go anywhere.
 OUTLINE MeshHit closest_in_stream(global const MeshRay *in, uint own, MESHES) {
   MeshRange range = ranges[in->mesh];
   Ray ray = mesh_ray(in);
@@ -110,7 +110,7 @@ OUTLINE MeshHit closest_in_stream(global const MeshRay *in, uint own, MESHES) {
 #else
 #define closest_in_stream(in, own, ranges, nodes, blocks, list) tree_closest(in, ranges, nodes, blocks, list)
 #endif
-// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a wave
+// A packet takes sixteen times as long as a ray: one ray in sixteen goes in one, or every fourth of these in a batch
 // (singly where the device has none), and every second, where a mesh has few triangles, against all of them.
 kernel void mesh_packets(global const MeshRay *rays, global MeshHit *hits, uint count, MESHES) {
   uint i = get_global_id(0), own = i / PACKET_RAYS % PACKET_RAYS;

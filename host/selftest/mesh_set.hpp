@@ -34,7 +34,7 @@ class MeshSet {
 
   std::vector<MeshHit> closest(const std::vector<MeshRay>& rays);
   /// As closest(), one ray in sixteen in a packet with others that go about its way, against all triangles of
-  /// a small mesh, or in a wave with others that go anywhere. By the watertight test alone.
+  /// a small mesh, or in a batch with others that go anywhere. By the watertight test alone.
   std::vector<MeshHit> closest_in_packets(const std::vector<MeshRay>& rays);
   /// 1 for each ray that meets something before t_max, 2 where the walk was cut short.
   std::vector<std::uint32_t> occluded(const std::vector<MeshRay>& rays);

@@ -7,14 +7,14 @@ using namespace causticl;
 
 namespace {
 
-// As "closest" of traversal_kernels.hpp, by waves: item number i traces a wave of 1 + i % STREAM_CAPACITY
+// As "closest" of traversal_kernels.hpp, by batches: item number i traces a batch of 1 + i % STREAM_CAPACITY
 // rays and then the rest of STREAM_CAPACITY. Arrays have NaN where there is no ray, but what is found there
 // must stay.
 const std::string kernels =
     "#define KD_STEP_LIMIT (1u << 12)\n" + std::string(sphere_stand_in) + traversal_kernels + R"(
 #include "traversal/kdtree_stream.cl"
 #ifdef KDTREE_STREAMS
-uint wave(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+uint batch(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
           global const float4 *rays, global float4 *hits, global uint *diagnostics, uint first, uint size) {
   float origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
   uint primitive[STREAM_CAPACITY], found[STREAM_CAPACITY], changed = 0;
@@ -35,13 +35,13 @@ uint wave(global const KdNode *nodes, global const TriangleBlock *blocks, global
   }
   return changed;
 }
-kernel void waves(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
+kernel void batches(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                   global const float4 *rays, global float4 *hits, uint count, global uint *diagnostics, global uint *outside) {
   uint first = (uint)get_global_id(0) * STREAM_CAPACITY;
   if (first >= count) return;
   uint size = min(STREAM_CAPACITY, count - first), head = min(size, 1u + (uint)get_global_id(0) % STREAM_CAPACITY);
-  uint changed = wave(nodes, blocks, shapes, rays, hits, diagnostics, first, head);
-  if (head < size) changed |= wave(nodes, blocks, shapes, rays, hits, diagnostics, first + head, size - head);
+  uint changed = batch(nodes, blocks, shapes, rays, hits, diagnostics, first, head);
+  if (head < size) changed |= batch(nodes, blocks, shapes, rays, hits, diagnostics, first + head, size - head);
   if (changed) *outside = 1;
 }
 #endif
@@ -61,15 +61,15 @@ cl::Program& program() {
   return built;
 }
 
-// Only devices that run the items of a work-group in turn have waves.
+// Only devices that run the items of a work-group in turn have batches.
 bool has_waves() {
   if (test_device().has_serial_work_items()) return true;
-  WARN("no waves on this device: not tested");
+  WARN("no batches on this device: not tested");
   return false;
 }
 
 struct StreamHits {
-  std::vector<TestHit> single, wave;
+  std::vector<TestHit> single, batch;
   std::vector<uint> single_diagnostics, stream_diagnostics;
   uint outside;  // whether arrays were changed where there is no ray
 };
@@ -79,16 +79,16 @@ StreamHits trace(const Traversal& scene, const std::vector<TestRay>& rays) {
   const auto count = static_cast<cl_uint>(rays.size());
   const auto buffer = Traversal::upload(rays);
   const auto single = device.buffer(rays.size() * sizeof(TestHit), "single"),
-             wave = device.buffer(rays.size() * sizeof(TestHit), "wave"),
+             batch = device.buffer(rays.size() * sizeof(TestHit), "batch"),
              single_diagnostics = device.buffer(rays.size() * sizeof(uint), "faults of single rays"),
              stream_diagnostics = device.buffer(rays.size() * sizeof(uint), "faults"),
              outside = device.buffer(sizeof(uint), "outside");
   device.clear(outside, sizeof(uint));
   run_kernel(program(), "single", rays.size(), scene.nodes, scene.blocks, scene.shapes, buffer, single, count,
              single_diagnostics);
-  run_kernel(program(), "waves", (rays.size() + 63) / 64, scene.nodes, scene.blocks, scene.shapes, buffer,
-             wave, count, stream_diagnostics, outside);
-  return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(wave, rays.size()),
+  run_kernel(program(), "batches", (rays.size() + 63) / 64, scene.nodes, scene.blocks, scene.shapes, buffer,
+             batch, count, stream_diagnostics, outside);
+  return {device.download<TestHit>(single, rays.size()), device.download<TestHit>(batch, rays.size()),
           device.download<uint>(single_diagnostics, rays.size()),
           device.download<uint>(stream_diagnostics, rays.size()), device.download<uint>(outside, 1)[0]};
 }
@@ -99,7 +99,7 @@ void check_streams(const TreeInput& input, const std::vector<Shape>& shapes, Ran
   const Traversal scene(input, shapes);
   const auto rays = hard_rays(scene, random, count);
   const auto found = trace(scene, rays);
-  const auto hits = check_same_hits(rays, found.single, found.wave);
+  const auto hits = check_same_hits(rays, found.single, found.batch);
   CHECK(found.single_diagnostics == found.stream_diagnostics);
   CHECK(found.outside == 0);
   if (!input.triangles.empty() || !input.shapes.empty()) CHECK(hits > rays.size() / 100);
@@ -112,25 +112,25 @@ void check_mesh_waves(const TriangleMesh& mesh, unsigned seed, std::size_t count
 
 }  // namespace
 
-TEST_CASE("waves find what single rays find: closed meshes") {
+TEST_CASE("batches find what single rays find: closed meshes") {
   check_mesh_waves(torus_mesh(48, 24, 1, 0.4), 1);
   check_mesh_waves(icosphere_mesh(3, 2), 2);
   check_mesh_waves(torus_knot_mesh(20000), 3);
 }
 
-TEST_CASE("waves find what single rays find: coplanar triangles, duplicates, boxes that share faces") {
+TEST_CASE("batches find what single rays find: coplanar triangles, duplicates, boxes that share faces") {
   for (int axis = 0; axis < 3; ++axis) check_mesh_waves(flat_mesh(axis), 10 + axis, 32 * 1024);
   check_mesh_waves(duplicate_triangles(300), 20, 16 * 1024);
   check_mesh_waves(boxes_that_share_faces(), 21);
 }
 
-TEST_CASE("waves find what single rays find: far from the origin, one triangle, none") {
+TEST_CASE("batches find what single rays find: far from the origin, one triangle, none") {
   check_mesh_waves(far_torus(), 30);
   check_mesh_waves({make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 31, 32 * 1024);
   check_mesh_waves({}, 32, 1000);
 }
 
-TEST_CASE("waves find what single rays find: spheres among triangles") {
+TEST_CASE("batches find what single rays find: spheres among triangles") {
   RandomInputs random(40);
   auto [input, shapes] = random_spheres(random, 300, 0.1);
   check_streams(input, shapes, random, 32 * 1024);
@@ -138,7 +138,7 @@ TEST_CASE("waves find what single rays find: spheres among triangles") {
   check_streams(input, shapes, random);
 }
 
-TEST_CASE("waves find what single rays find: disks among spheres and triangles") {
+TEST_CASE("batches find what single rays find: disks among spheres and triangles") {
   RandomInputs random(43);
   auto [input, shapes] = random_spheres(random, 40, 0.2);
   for (uint i = 40; i < 120; ++i) {
@@ -151,7 +151,7 @@ TEST_CASE("waves find what single rays find: disks among spheres and triangles")
   check_streams(input, shapes, random);
 }
 
-TEST_CASE("a wave finds nothing that is as far as what its rays have met before") {
+TEST_CASE("a batch finds nothing that is as far as what its rays have met before") {
   if (!has_waves()) return;
   RandomInputs random(41);
   const Traversal scene({torus_knot_mesh(4000), {}}, {});
@@ -159,10 +159,10 @@ TEST_CASE("a wave finds nothing that is as far as what its rays have met before"
   const auto first = trace(scene, rays).single;
   for (std::size_t i = 0; i < rays.size(); ++i) rays[i].t_max = first[i].t;
   const auto found = trace(scene, rays);
-  CHECK(check_same_hits(rays, found.single, found.wave) == 0);
+  CHECK(check_same_hits(rays, found.single, found.batch) == 0);
 }
 
-TEST_CASE("a ray that is not finite is cut short, and changes nothing for the others of its wave") {
+TEST_CASE("a ray that is not finite is cut short, and changes nothing for the others of its batch") {
   if (!has_waves()) return;
   RandomInputs random(42);
   const Traversal scene({torus_knot_mesh(4000), {}}, {});
@@ -172,7 +172,7 @@ TEST_CASE("a ray that is not finite is cut short, and changes nothing for the ot
   const auto whole = trace(scene, rays), found = trace(scene, changed);
   std::size_t different = 0, cut_short = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    different += !broken[i] && (std::memcmp(&whole.single[i], &found.wave[i], sizeof(TestHit)) != 0 ||
+    different += !broken[i] && (std::memcmp(&whole.single[i], &found.batch[i], sizeof(TestHit)) != 0 ||
                                 found.stream_diagnostics[i] != 0);
     cut_short += found.stream_diagnostics[i] != 0;
   }
