@@ -30,11 +30,11 @@ inline constexpr DiagnosticKind diagnostic_kinds[] = {
     {"traversal_bound", &Diagnostics::traversal_bound,
      "rays gave up in the tree: the device computes wrongly (run `causticl selftest`)"},
     {"media_full", &Diagnostics::media_full,
-     "paths were in more than 8 dielectrics at once, or came from among too many: the innermost were left "
-     "out"},
+     "paths were in more than 8 dielectrics at once, or came to a place where more of their faces meet: the "
+     "innermost were left out"},
     {"media_left", &Diagnostics::media_left,
      "boundaries of dielectrics were left from behind without having been entered: an open surface, which "
-     "holds what lies behind it, or, where they are few, rounding"},
+     "holds what lies behind it, or, below one in 100,000 paths, rounding"},
     {"dropped", &Diagnostics::dropped,
      "photons found no room in the device's memory: light is missing; fewer photons a pass (--photons) fit"},
 };
