@@ -1,5 +1,6 @@
 #include "format/scene_schema.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -126,10 +127,21 @@ json Schemas::object(const ValueType& type) {
     return defined(table().name, [&] { return of_table(table()); });
   };
   if (type.tables.size() == 1) return of(type.tables[0]);
+  const bool by_type = std::none_of(type.tables.begin(), type.tables.end(),
+                                    [](TableFunction table) { return table().type.empty(); });
   return defined(type.name, [&] {
-    json alternatives = json::array();
-    for (const TableFunction table : type.tables) alternatives.push_back(of(table));
-    return json{{"anyOf", alternatives}};
+    json alternatives = json::array(), words = json::array();
+    for (const TableFunction table : type.tables) {
+      const json is_this{{"properties", {{"type", {{"const", table().type}}}}}, {"required", {"type"}}};
+      alternatives.push_back(by_type ? json{{"if", is_this}, {"then", of(table)}} : of(table));
+      words.push_back(table().type);
+    }
+    if (!by_type) return json{{"anyOf", alternatives}};
+    // Not "anyOf", of which validators say no more than that nothing fits.
+    return json{{"type", "object"},
+                {"properties", {{"type", {{"enum", words}}}}},
+                {"required", {"type"}},
+                {"allOf", alternatives}};
   });
 }
 
