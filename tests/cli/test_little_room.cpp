@@ -199,7 +199,7 @@ TEST_CASE("a signal while kernels are compiled ends the run soon, and leaves not
     process.send(SIGTERM);
     const Finished run = process.wait();
     CHECK(run.signal == SIGTERM);
-    for (int i = 0; i < 500 && !run_folders(folder.path("cache")).empty(); ++i)  // its helpers end after it
+    for (int i = 0; i < 3000 && !run_folders(folder.path("cache")).empty(); ++i)  // its helpers end after it
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK(run_folders(folder.path("cache")).empty());
   }
