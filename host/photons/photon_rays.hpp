@@ -9,9 +9,9 @@
 
 namespace causticl {
 
-/// Through the tree, where the items of a work-group run in turn, in batches (cl/traversal/kdtree_stream.cl), or
-/// sixteen at a time by brute force (cl/traversal/brute_force.cl); the picture is the same. `automatic`: by
-/// brute force on CPUs where primitives are few.
+/// Through the tree, where the items of a work-group run in turn, in batches (cl/traversal/kdtree_stream.cl),
+/// or sixteen at a time by brute force (cl/traversal/brute_force.cl); the picture is the same. `automatic`:
+/// by brute force on CPUs where primitives are few.
 enum class PhotonRays { automatic, tree, brute_force };
 
 /// Whether the programs of a device are to trace photons and shadow rays by brute force. Never in double
