@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include "base/error.hpp"
@@ -36,6 +37,19 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Of a file; empty where it cannot be read.
+inline std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Whether a failed output left nothing behind.
+inline bool has_no_temporary(const TemporaryFolder& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+    if (entry.path().extension() == ".tmp") return false;
+  return true;
+}
 
 /// The message of the UserError that `action` throws, with `file` (where given) shortened to its name; empty
 /// where it throws none.

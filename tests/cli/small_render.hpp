@@ -37,11 +37,6 @@ inline Words small_render(const Words& more = {}, const std::string& scene = cor
 // Far more passes than any test waits for.
 inline const Words endless{"--passes", "1000000"};
 
-inline std::string bytes_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 inline std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());

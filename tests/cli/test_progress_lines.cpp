@@ -6,23 +6,12 @@
 
 #include "app/progress.hpp"
 #include "catch2.hpp"
+#include "report_fixture.hpp"
 
 using namespace causticl;
 using Catch::Contains;
 
 namespace {
-
-/// All that `print` puts on a stream that is no terminal.
-template <typename Print>
-std::string printed(Print print) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::tmpfile(), std::fclose);
-  REQUIRE(stream);
-  print(stream.get());
-  std::rewind(stream.get());
-  std::string text;
-  for (int c; (c = std::fgetc(stream.get())) != EOF;) text.push_back(static_cast<char>(c));
-  return text;
-}
 
 Progress progress_at(std::uint64_t pass, double seconds) {
   return {pass, 100, seconds, 10, {}, {}, pass * 1000000, pass * 3000000};
@@ -30,17 +19,6 @@ Progress progress_at(std::uint64_t pass, double seconds) {
 
 std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-Statistics example_statistics() {
-  Statistics statistics;
-  statistics.device = "Example device";
-  statistics.passes = 7;
-  statistics.photons = 700;
-  statistics.seconds = 2.5;
-  statistics.kernels["trace_photons"] = {30, 7};
-  statistics.kernels["gather"] = {90, 14};
-  return statistics;
 }
 
 }  // namespace

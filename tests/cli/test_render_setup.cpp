@@ -2,24 +2,11 @@
 #include "app/options.hpp"
 #include "app/render_setup.hpp"
 #include "catch2.hpp"
+#include "report_fixture.hpp"
 
 using namespace causticl;
 
-namespace {
-
-Scene example_scene() {
-  Scene scene;
-  scene.file = "example.json";
-  scene.width = 320;
-  scene.height = 200;
-  scene.camera.up = {0, 2, 0};
-  scene.materials.resize(2);
-  scene.materials[1].kind = MaterialSpec::Kind::glass;
-  scene.materials[1].emission = {0, 3, 0};
-  return scene;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("limits of the command line replace the scene's where they apply, and say where they do not") {
   Scene scene = example_scene();

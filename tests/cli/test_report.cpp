@@ -7,37 +7,13 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "catch2.hpp"
+#include "report_fixture.hpp"
 
 using namespace causticl;
 using Catch::Contains;
 using Catch::StartsWith;
 
-namespace {
-
-/// All that `print` puts on a stream that is no terminal.
-template <typename Print>
-std::string printed(Print print) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::tmpfile(), std::fclose);
-  REQUIRE(stream);
-  print(stream.get());
-  std::rewind(stream.get());
-  std::string text;
-  for (int c; (c = std::fgetc(stream.get())) != EOF;) text.push_back(static_cast<char>(c));
-  return text;
-}
-
-Statistics example_statistics() {
-  Statistics statistics;
-  statistics.device = "Example device";
-  statistics.passes = 7;
-  statistics.photons = 700;
-  statistics.seconds = 2.5;
-  statistics.kernels["trace_photons"] = {30, 7};
-  statistics.kernels["gather"] = {90, 14};
-  return statistics;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("numbers are printed with three figures and a prefix") {
   CHECK(si_number(0) == "0");

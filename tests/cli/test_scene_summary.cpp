@@ -1,23 +1,12 @@
 // What `info` tells of a scene.
 #include "app/report.hpp"
 #include "catch2.hpp"
+#include "report_fixture.hpp"
 
 using namespace causticl;
 using Catch::Contains;
 
 namespace {
-
-Scene example_scene() {
-  Scene scene;
-  scene.file = "example.json";
-  scene.width = 320;
-  scene.height = 200;
-  scene.camera.up = {0, 2, 0};
-  scene.materials.resize(2);
-  scene.materials[1].kind = MaterialSpec::Kind::glass;
-  scene.materials[1].emission = {0, 3, 0};
-  return scene;
-}
 
 Object object_at(Object::Shape shape, Vec3 position) {
   Object object;

@@ -14,11 +14,6 @@ namespace fs = std::filesystem;
 
 const fs::path folder = fs::path(CAUSTICL_SOURCE_DIR) / "tests/fuzz";
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 TEST_CASE("every file of the fuzz corpus keeps the promises of its reader") {

@@ -22,11 +22,6 @@ bool same(const std::optional<KernelFiles>& found, const KernelFiles& expected) 
   return true;
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// CAUSTICL_CACHE_DIR for the time of a test.
 struct CacheFolder {
   explicit CacheFolder(const std::string& folder) {

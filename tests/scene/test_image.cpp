@@ -13,14 +13,11 @@
 #include "catch2.hpp"
 #include "image/image.hpp"
 #include "image/image_formats.hpp"
+#include "image_files.hpp"
 #include "temporary_folder.hpp"
 
 namespace causticl {
 namespace {
-
-void append_bytes(void* target, void* data, int size) {
-  static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-}
 
 // 2x2 texels, top row first: red, green / blue, grey with alpha 128.
 const std::vector<unsigned char> four_texels{255, 0, 0,   255, 0,   255, 0,   255,
@@ -28,7 +25,7 @@ const std::vector<unsigned char> four_texels{255, 0, 0,   255, 0,   255, 0,   25
 
 std::string png_bytes() {
   std::string bytes;
-  stbi_write_png_to_func(append_bytes, &bytes, 2, 2, 4, four_texels.data(), 0);
+  stbi_write_png_to_func(append_to_string, &bytes, 2, 2, 4, four_texels.data(), 0);
   return bytes;
 }
 
@@ -42,17 +39,6 @@ Picture small_picture() {
   Picture picture{3, 2, {}};
   for (int i = 0; i < 18; ++i) picture.rgb.push_back(1e-4f + 1000.001f * float(i));
   return picture;
-}
-
-bool has_no_temporary(const TemporaryFolder& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
-    if (entry.path().extension() == ".tmp") return false;
-  return true;
-}
-
-std::string bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string big_endian(float value) {
@@ -92,11 +78,11 @@ TEST_CASE("JPEG, BMP, TGA and HDR are read, and refused where they end early") {
     floats.push_back(float(y) * 8);
   }
   std::string jpg, bmp, tga, hdr, png;
-  stbi_write_jpg_to_func(append_bytes, &jpg, width, height, 3, pixels.data(), 95);
-  stbi_write_bmp_to_func(append_bytes, &bmp, width, height, 3, pixels.data());
-  stbi_write_tga_to_func(append_bytes, &tga, width, height, 3, pixels.data());
-  stbi_write_hdr_to_func(append_bytes, &hdr, width, height, 3, floats.data());
-  stbi_write_png_to_func(append_bytes, &png, width, height, 3, pixels.data(), 0);
+  stbi_write_jpg_to_func(append_to_string, &jpg, width, height, 3, pixels.data(), 95);
+  stbi_write_bmp_to_func(append_to_string, &bmp, width, height, 3, pixels.data());
+  stbi_write_tga_to_func(append_to_string, &tga, width, height, 3, pixels.data());
+  stbi_write_hdr_to_func(append_to_string, &hdr, width, height, 3, floats.data());
+  stbi_write_png_to_func(append_to_string, &png, width, height, 3, pixels.data(), 0);
   for (const auto& [name, bytes] : std::map<std::string, std::string>{
            {"a.jpg", jpg}, {"a.bmp", bmp}, {"a.tga", tga}, {"a.hdr", hdr}, {"a.png", png}}) {
     CAPTURE(name);
@@ -148,7 +134,7 @@ TEST_CASE("Damaged and foreign images have one clear line each") {
 
   // A Huffman table (marker FF C4, length, class, 16 counts) of too many codes overruns the decoder's own.
   std::string jpg;
-  stbi_write_jpg_to_func(append_bytes, &jpg, 2, 2, 4, four_texels.data(), 90);
+  stbi_write_jpg_to_func(append_to_string, &jpg, 2, 2, 4, four_texels.data(), 90);
   const auto table = jpg.find("\xff\xc4");
   REQUIRE(table != jpg.npos);
   CHECK(fault("a.jpg", jpg) == "");

@@ -10,20 +10,7 @@
 #include "temporary_folder.hpp"
 
 namespace causticl {
-namespace {
-
-bool has_no_temporary(const TemporaryFolder& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
-    if (entry.path().extension() == ".tmp") return false;
-  return true;
-}
-
-std::string bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("PNG clamps, takes the power 1/2.2 and rounds; NaN is black") {
   const TemporaryFolder folder;
