@@ -18,16 +18,19 @@
 #define WALL_SLACK 1e-4f
 #define WALL_ROUNDING 1e-6f
 
-// Walls beyond so many are not told apart by their distance.
-#define WALLS_NEAR 24u
+// Walls, or groups of them, beyond so many are not told apart by their distance.
+#define WALLS_NEAR 48u
 
 // The walls near a visible point.
 typedef struct {
   real3 point, normal;  // of the visible point; the normal on its side
   real rounding;        // of coordinates there
   global const Wall *walls;
-  global const uint *listed;  // those of its cell
-  uint count;                 // how many of `near` are walls, or with `all` how many of `listed`
+  global const uint *listed;  // those of its cell, first those that part something
+  uint parting, listed_count;
+  global const float4 *boxes;  // two corners for each group of WALL_GROUP parting walls; 0 where they are few
+  // Of the parting walls, or of their groups where there are boxes: how many of `near` count, or with `all` all.
+  uint count;
   bool all;
   uint near[WALLS_NEAR];
 } NearWalls;
@@ -56,6 +59,11 @@ INLINE real wall_distance(global const Wall *wall, real3 p) {
   return distance;
 }
 
+// Whether the box has a point between the two corners.
+INLINE bool box_meets(global const float4 *box, real3 low, real3 high) {
+  return all(convert_real3(box[0].xyz) <= high) && all(convert_real3(box[1].xyz) >= low);
+}
+
 // Takes all walls that the cell of a visible point lists, for paths to points within `radius` of it. False if there are
 // none. Enough where few points are asked about: telling which walls are near takes longer.
 INLINE bool walls_listed(global const WallGrid *grid, real3 point, real3 normal, real radius, NearWalls *near) {
@@ -68,8 +76,12 @@ INLINE bool walls_listed(global const WallGrid *grid, real3 point, real3 normal,
   near->normal = normal;
   near->rounding = (real)WALL_ROUNDING * (max(fabs(point.x), max(fabs(point.y), fabs(point.z))) + radius);
   near->walls = (global const Wall *)((global const float4 *)grid + grid->first_wall);
-  near->listed = starts + cells + 1 + begin;
-  near->count = end - begin;
+  near->listed = starts + cells + 1 + begin + 2;
+  near->listed_count = end - begin - 2;
+  near->parting = near->listed[-2];
+  uint boxes = near->listed[-1];
+  near->boxes = boxes ? (global const float4 *)grid + boxes : 0;
+  near->count = boxes ? (near->parting + WALL_GROUP - 1) / WALL_GROUP : near->parting;
   near->all = true;
   return true;
 }
@@ -77,19 +89,20 @@ INLINE bool walls_listed(global const WallGrid *grid, real3 point, real3 normal,
 // Finds the walls within `radius` of a visible point. False if there are none.
 INLINE bool walls_near(global const WallGrid *grid, real3 point, real3 normal, real radius, NearWalls *near) {
   if (!walls_listed(grid, point, normal, radius, near)) return false;
-  uint listed = near->count;
+  uint all = near->count;
   near->count = 0;
   near->all = false;
   real reach = radius * (real)(1 + WALL_OVER_HEIGHT + WALL_SLACK) + 8 * near->rounding;
-  for (uint i = 0; i < listed; ++i) {
-    uint wall = near->listed[i];
-    if (!(wall_distance(near->walls + wall, point) <= reach)) continue;
+  for (uint i = 0; i < all; ++i) {
+    if (near->boxes ? !box_meets(near->boxes + 2 * i, point - reach, point + reach)
+                    : !(wall_distance(near->walls + near->listed[i], point) <= reach))
+      continue;
     if (near->count == WALLS_NEAR) {
       near->all = true;
-      near->count = listed;
+      near->count = all;
       break;
     }
-    near->near[near->count++] = wall;
+    near->near[near->count++] = i;
   }
   return near->count > 0;
 }
@@ -124,9 +137,27 @@ INLINE bool wall_crossed(global const Wall *wall, real3 a, real3 b, real slack) 
   return inside;
 }
 
+// Whether the way crosses none of the walls that part something.
+INLINE bool parting_walls_leave_free(const NearWalls *near, real3 a, real3 b, real slack) {
+  real3 low = fmin(a, b) - 2 * slack, high = fmax(a, b) + 2 * slack;
+  for (uint i = 0; i < near->count; ++i) {
+    uint begin = near->all ? i : near->near[i], end = begin + 1;
+    if (near->boxes) {
+      if (!box_meets(near->boxes + 2 * begin, low, high)) continue;
+      begin *= WALL_GROUP;
+      end = min(begin + WALL_GROUP, near->parting);
+    }
+    for (uint k = begin; k < end; ++k)
+      if (wall_crossed(near->walls + near->listed[k], a, b, slack)) return false;
+  }
+  return true;
+}
+
+// Whether the way crosses no wall at all: one that parts nothing by itself, as a low ceiling, may bar the way over another.
 INLINE bool way_is_free(const NearWalls *near, real3 a, real3 b, real slack) {
-  for (uint i = 0; i < near->count; ++i)
-    if (wall_crossed(near->walls + (near->all ? near->listed[i] : near->near[i]), a, b, slack)) return false;
+  if (!parting_walls_leave_free(near, a, b, slack)) return false;
+  for (uint i = near->parting; i < near->listed_count; ++i)
+    if (wall_crossed(near->walls + near->listed[i], a, b, slack)) return false;
   return true;
 }
 
@@ -135,7 +166,7 @@ OUTLINE bool walls_between(const NearWalls *near, real3 point, real3 normal) {
   real distance = length(point - near->point), slack = (real)WALL_SLACK * distance + near->rounding;
   real low = (real)WALL_STRAIGHT_HEIGHT * distance + 4 * near->rounding, high = (real)WALL_OVER_HEIGHT * distance + low;
   real3 a = near->point + low * near->normal, b = point + low * normal;
-  if (way_is_free(near, a, b, slack)) return false;
+  if (parting_walls_leave_free(near, a, b, slack)) return false;
   real3 over_a = near->point + high * near->normal, over_b = point + high * normal;
   return !(way_is_free(near, over_a, over_b, slack) && way_is_free(near, over_a, a, slack) &&
            way_is_free(near, over_b, b, slack));

@@ -61,7 +61,8 @@ bool set_triangle(WallPrimitive& primitive, const Vec3 (&corner)[3]) {
 /// Makes two triangles that are the halves of a parallelogram one primitive. False if they are not.
 bool join(WallPrimitive& first, const WallPrimitive& second) {
   constexpr double tolerance = 1e-6;  // of the size: what rounding the corners may change
-  if (type_of(first) != WALL_TRIANGLE || first.blocks != second.blocks || first.receives != second.receives)
+  if (type_of(first) != WALL_TRIANGLE || first.blocks != second.blocks || first.receives != second.receives ||
+      first.lit_side != second.lit_side || first.part != second.part)
     return false;
   const std::vector<Vec3>&a = first.corners, &b = second.corners;
   const double size = length(first.high - first.low);
@@ -150,38 +151,25 @@ bool set_shape(WallPrimitive& primitive, const Shape& shape) {
   return true;
 }
 
-/// The part of a triangle or parallelogram within the box, as a convex polygon.
-std::vector<Vec3> clipped(const WallPrimitive& flat, const WallBox& box) {
-  std::vector<Vec3> polygon = flat.corners, next;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {-1.0, 1.0}) {
-      const auto outside = [&](Vec3 p) { return sign * (p[axis] - box.centre[axis]) - box.half[axis]; };
-      next.clear();
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        const double da = outside(a), db = outside(b);
-        if (da <= 0) next.push_back(a);
-        if ((da < 0) != (db < 0) && da != db) next.push_back(a + (da / (da - db)) * (b - a));
-      }
-      polygon.swap(next);
-    }
-  return polygon;
-}
-
 }  // namespace
 
-std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, double time) {
+std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, const LitSides& sides,
+                                           double time) {
   std::vector<WallPrimitive> primitives;
   primitives.reserve(world.tree.triangles.size() + world.shapes.size());
   for (std::size_t i = 0; i < world.tree.triangles.size(); ++i) {
     const auto& position = world.tree.triangles[i].position;
     WallPrimitive primitive = primitive_of(scene, world.attributes[i].material & ~TRIANGLE_SMOOTH);
+    primitive.lit_side = sides.triangles[i];
+    primitive.part = sides.parts[i];
     const auto corner = [&](int c) { return Vec3{position[c][0], position[c][1], position[c][2]}; };
     if (!set_triangle(primitive, {corner(0), corner(1), corner(2)})) continue;
     if (primitives.empty() || !join(primitives.back(), primitive)) primitives.push_back(std::move(primitive));
   }
-  for (const auto& shape : world.shapes) {
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const causticl::Shape& shape = world.shapes[i];
     WallPrimitive primitive = primitive_of(scene, shape.material);
+    primitive.lit_side = sides.shapes[i];
     if (set_shape(primitive, shape)) primitives.push_back(primitive);
   }
   for (const auto& object : scene.objects)
@@ -211,7 +199,24 @@ bool may_reach(const WallPrimitive& primitive, const WallBox& box, double reach)
   return true;
 }
 
-WallSides sides_of(const WallPrimitive& wall, const WallPrimitive& other, const WallBox& box,
+std::vector<Vec3> clipped(std::vector<Vec3> polygon, const WallBox& box) {
+  std::vector<Vec3> next;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      const auto outside = [&](Vec3 p) { return sign * (p[axis] - box.centre[axis]) - box.half[axis]; };
+      next.clear();
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        const double da = outside(a), db = outside(b);
+        if (da <= 0) next.push_back(a);
+        if ((da < 0) != (db < 0) && da != db) next.push_back(a + (da / (da - db)) * (b - a));
+      }
+      polygon.swap(next);
+    }
+  return polygon;
+}
+
+WallSides sides_of(const WallPrimitive& wall, const WallPrimitive& other, const std::vector<Vec3>& polygon,
                    double tolerance) {
   WallSides sides;
   const Vec3 origin = to_vec3(wall.wall.origin), n = to_vec3(wall.wall.normal);
@@ -245,7 +250,6 @@ WallSides sides_of(const WallPrimitive& wall, const WallPrimitive& other, const 
       break;
     }
     default: {
-      const auto polygon = clipped(other, box);
       if (polygon.empty()) break;
       double low = infinity, high = -infinity;
       for (const Vec3 p : polygon) {

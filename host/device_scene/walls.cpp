@@ -4,206 +4,212 @@
 #include <cmath>
 #include <cstring>
 
+#include "device_scene/parting_walls.hpp"
+#include "device_scene/wall_cells.hpp"
 #include "device_scene/wall_primitives.hpp"
 
 namespace causticl {
 namespace {
 
-/// Cells along the longest axis at most: smaller ones would take more memory than they spare walls.
-constexpr double most_cells = 128;
-
 /// Of the radius: how far from a visible point a path to a photon may run (WALL_OVER_HEIGHT of
 /// cl/photons/walls.cl), and some.
 constexpr double reach_ratio = 1.4;
 
-/// Cells near more primitives than this are judged by normals: all alike are one surface, else all are walls.
-constexpr std::size_t most_pairs = 32;
-
-constexpr double one_surface_cosine = 0.866;  // of 30 degrees from the first normal, 60 between any two
-
-constexpr double kept_apart_cosine = 0.45;  // below GATHER_NORMAL_COSINE, for what packed normals lose
+/// Of more parting walls groups have boxes around them.
+constexpr std::size_t most_ungrouped = 2 * WALL_GROUP;
 
 /// What lies near a cell.
 struct Cell {
   std::uint32_t count = 0;
-  bool receives = false;  // a surface that may hold visible points passes through it
-  bool one_surface = true;
-  Vec3 normal;  // of the first primitive
+  bool receives = false;      // a surface that may hold visible points passes through it
+  bool is_dense_part = true;  // all near it are of one part of a mesh, and small beside the radius
+  std::int32_t part = -1;     // of the first
+
+  bool may_have_walls() const { return receives && count > 1 && !is_dense_part; }
+};
+
+/// The walls of a cell by numbers of primitives.
+struct CellWalls {
+  std::vector<std::uint32_t> parting, large, others;
 };
 
 class WallGridBuilder {
  public:
   WallGridBuilder(std::vector<WallPrimitive> primitives, double radius)
-      : primitives_(std::move(primitives)), reach_(reach_ratio * radius) {
-    place_grid(radius);
-  }
+      : primitives_(std::move(primitives)),
+        reach_(reach_ratio * radius),
+        dense_(PartingWalls::dense_ratio * radius),
+        cells_(primitives_, radius, reach_),
+        parting_(primitives_, cells_, radius) {}
 
   std::vector<std::byte> build() {
-    std::vector<Cell> cells(cell_count());
-    for (const auto& primitive : primitives_)
-      visit(primitive, [&](std::size_t index, const WallBox& box) { add(primitive, box, cells[index]); });
-    std::vector<std::vector<std::uint32_t>> near(cell_count() + 1);
+    look_around();
+    lists_.resize(cells_.count() + 1);
     for (std::uint32_t i = 0; i < primitives_.size(); ++i)
-      visit(primitives_[i], [&](std::size_t index, const WallBox&) {
-        const Cell& cell = cells[index];
-        if (cell.receives && cell.count > 1 && !(cell.count > most_pairs && cell.one_surface))
-          near[index + 1].push_back(i);
-      });
+      if (primitives_[i].blocks) list_if_parting(i);
+    for (std::size_t index = 0; index < lists_.size(); ++index) try_large(index);
     for (std::uint32_t i = 0; i < primitives_.size(); ++i)
-      if (primitives_[i].wall.origin.w == WALL_PLANE)
-        near[0].push_back(i);  // beyond the grid there is nothing else
-    for (std::size_t index = 0; index <= cell_count(); ++index)
-      if (!near[index].empty()) near[index] = walls_of(near[index], index);
-    return packed(near);
+      if (primitives_[i].blocks) list_beside_parting(i);
+    return packed();
   }
 
  private:
   const std::vector<WallPrimitive> primitives_;
-  const double reach_;
-  Vec3 low_, high_;
-  double cell_ = 1;
-  int cells_[3] = {0, 0, 0};
-  double tolerance_ = 0;
+  const double reach_, dense_;
+  const WallCells cells_;
+  PartingWalls parting_;
+  std::vector<Cell> near_;
+  std::vector<CellWalls> lists_;  // first of what lies beyond the grid, then of each cell
 
-  std::size_t cell_count() const {
-    return static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
-           static_cast<std::size_t>(cells_[2]);
-  }
-
-  /// Around all that is bounded, so far that what lies beyond is near nothing bounded.
-  void place_grid(double radius) {
-    low_ = Vec3{INFINITY, INFINITY, INFINITY};
-    high_ = -low_;
-    for (const auto& primitive : primitives_)
-      for (int axis = 0; axis < 3; ++axis)
-        if (std::isfinite(primitive.low.x)) {
-          low_[axis] = std::min(low_[axis], primitive.low[axis]);
-          high_[axis] = std::max(high_[axis], primitive.high[axis]);
-        }
-    if (!(low_.x <= high_.x)) low_ = high_ = {0, 0, 0};
-    const double largest =
-        std::max(max_component({std::fabs(low_.x), std::fabs(low_.y), std::fabs(low_.z)}),
-                 max_component({std::fabs(high_.x), std::fabs(high_.y), std::fabs(high_.z)}));
-    tolerance_ = 1e-3 * reach_ + 4e-6 * largest;
-    const Vec3 margin = Vec3{1, 1, 1} * (1.01 * reach_ + 1e-5 * largest);
-    low_ = low_ - margin;
-    high_ = high_ + margin;
-    // As the kernel's floats have it.
-    for (int axis = 0; axis < 3; ++axis) low_[axis] = static_cast<float>(low_[axis]);
-    cell_ = 1 / static_cast<double>(
-                    static_cast<float>(1 / std::max(radius, max_component(high_ - low_) / most_cells)));
-    for (int axis = 0; axis < 3; ++axis)
-      cells_[axis] = static_cast<int>(std::ceil((high_[axis] - low_[axis]) / cell_)) + 1;
-  }
-
-  WallBox box_of(int i, int j, int k) const {
-    const Vec3 centre = low_ + cell_ * Vec3{i + 0.5, j + 0.5, k + 0.5};
-    return {centre, Vec3{1, 1, 1} * (0.5 * cell_ + tolerance_)};
-  }
-
-  /// Calls `found` for each cell that the primitive may be within reach of.
-  template <typename Found>
-  void visit(const WallPrimitive& primitive, const Found& found) const {
-    int first[3], last[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto cell_at = [&](double x) {
-        return static_cast<int>(std::clamp(std::floor((x - low_[axis]) / cell_), 0.0, cells_[axis] - 1.0));
-      };
-      first[axis] = cell_at(primitive.low[axis] - reach_ - tolerance_);
-      last[axis] = cell_at(primitive.high[axis] + reach_ + tolerance_);
+  void look_around() {
+    near_.resize(cells_.count());
+    for (const auto& primitive : primitives_) {
+      const bool dense = primitive.part >= 0 && max_component(primitive.high - primitive.low) <= dense_;
+      cells_.visit(
+          primitive, reach_, [](std::size_t) { return true; },
+          [&](std::size_t index) {
+            Cell& cell = near_[index];
+            if (cell.count++ == 0) cell.part = primitive.part;
+            cell.is_dense_part = cell.is_dense_part && dense && primitive.part == cell.part;
+          });
+      if (primitive.receives)
+        cells_.visit(
+            primitive, 0, [&](std::size_t index) { return !near_[index].receives; },
+            [&](std::size_t index) { near_[index].receives = true; });
     }
-    for (int k = first[2]; k <= last[2]; ++k)
-      for (int j = first[1]; j <= last[1]; ++j)
-        for (int i = first[0]; i <= last[0]; ++i) {
-          const WallBox box = box_of(i, j, k);
-          if (may_reach(primitive, box, reach_))
-            found((static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_[1]) +
-                   static_cast<std::size_t>(j)) *
-                          static_cast<std::size_t>(cells_[0]) +
-                      static_cast<std::size_t>(i),
-                  box);
-        }
   }
 
-  static void add(const WallPrimitive& primitive, const WallBox& box, Cell& cell) {
-    const Vec3 n{primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
-    if (cell.count++ == 0) cell.normal = n;
-    if (primitive.wall.origin.w == WALL_SPHERE || dot(n, cell.normal) < one_surface_cosine)
-      cell.one_surface = false;
-    cell.receives = cell.receives || (primitive.receives && may_reach(primitive, box, 0));
+  /// The box about what photons may be gathered from, from a visible point in the box.
+  WallBox within_reach(WallBox box) const {
+    box.half = box.half + Vec3{1, 1, 1} * reach_;
+    return box;
   }
 
-  /// Which of the primitives near a cell are walls there. Cell 0 is what lies beyond the grid.
-  std::vector<std::uint32_t> walls_of(const std::vector<std::uint32_t>& near, std::size_t index) const {
-    std::vector<std::uint32_t> walls;
-    WallBox box{{0, 0, 0}, {INFINITY, INFINITY, INFINITY}};
-    if (index > 0) {
-      const auto at = static_cast<int>(index - 1);
-      box = box_of(at % cells_[0], at / cells_[0] % cells_[1], at / cells_[0] / cells_[1]);
-      box.half = box.half + Vec3{1, 1, 1} * reach_;
-    }
-    const auto some_part = [&](std::uint32_t i) {
-      return primitives_[i].blocks && parts(primitives_[i], near, box);
+  void list_if_parting(std::uint32_t i) {
+    const bool small = parting_.is_small(i);
+    cells_.visit(
+        primitives_[i], reach_, [&](std::size_t index) { return near_[index].may_have_walls(); },
+        [&](std::size_t index) {
+          CellWalls& list = lists_[index + 1];
+          if (!small)
+            list.large.push_back(i);
+          else if (parting_.parts(i))
+            list.parting.push_back(i);
+        });
+    // Beyond the grid there is nothing else.
+    if (primitives_[i].wall.origin.w == WALL_PLANE) lists_[0].large.push_back(i);
+  }
+
+  void try_large(std::size_t index) {
+    CellWalls& list = lists_[index];
+    if (list.large.empty()) return;
+    const WallBox everywhere{{0, 0, 0}, {INFINITY, INFINITY, INFINITY}};
+    const WallBox box = index > 0 ? within_reach(cells_.box_of(index - 1)) : everywhere;
+    const auto others = index > 0 ? parting_.others_in(box) : pointers(list.large);
+    for (const std::uint32_t i : list.large)
+      if (parting_.parts(i, others, box)) list.parting.push_back(i);
+    std::sort(list.parting.begin(), list.parting.end());
+  }
+
+  /// A path over one wall may be barred by another that parts nothing by itself, as a low ceiling.
+  void list_beside_parting(std::uint32_t i) {
+    const auto is_wanted = [&](std::size_t index) {
+      const CellWalls& list = lists_[index];
+      return !list.parting.empty() && !std::binary_search(list.parting.begin(), list.parting.end(), i);
     };
-    if (near.size() <= most_pairs && std::none_of(near.begin(), near.end(), some_part)) return walls;
-    // A path over one wall may be barred by another that parts nothing by itself, as a low ceiling.
-    for (const std::uint32_t i : near)
-      if (primitives_[i].blocks) walls.push_back(i);
-    return walls;
+    cells_.visit(
+        primitives_[i], reach_, [&](std::size_t index) { return is_wanted(index + 1); },
+        [&](std::size_t index) { lists_[index + 1].others.push_back(i); });
+    if (primitives_[i].wall.origin.w == WALL_PLANE && is_wanted(0)) lists_[0].others.push_back(i);
   }
 
-  /// Whether surfaces that may hold photons lie on both sides of the wall, and those of some pair of them may
-  /// be found from one another.
-  bool parts(const WallPrimitive& wall, const std::vector<std::uint32_t>& near, const WallBox& box) const {
-    std::vector<const WallPrimitive*> front, back;
-    for (const std::uint32_t i : near) {
-      const WallPrimitive& other = primitives_[i];
-      if (!other.receives || &other == &wall) continue;
-      const WallSides sides = sides_of(wall, other, box, tolerance_);
-      if (sides.front) front.push_back(&other);
-      if (sides.back) back.push_back(&other);
-    }
-    for (const auto* a : front)
-      for (const auto* b : back)
-        if (normals_may_agree(*a, *b)) return true;
-    return false;
+  std::vector<const WallPrimitive*> pointers(const std::vector<std::uint32_t>& numbers) const {
+    std::vector<const WallPrimitive*> result;
+    result.reserve(numbers.size());
+    for (const std::uint32_t i : numbers) result.push_back(&primitives_[i]);
+    return result;
   }
 
-  static bool normals_may_agree(const WallPrimitive& a, const WallPrimitive& b) {
-    if (a.wall.origin.w == WALL_SPHERE || b.wall.origin.w == WALL_SPHERE) return true;
-    const float4 m = a.wall.normal, n = b.wall.normal;
-    return std::fabs(m.x * n.x + m.y * n.y + m.z * n.z) > kept_apart_cosine;
-  }
-
-  std::vector<std::byte> packed(const std::vector<std::vector<std::uint32_t>>& lists) const {
+  std::vector<std::byte> packed() {
     std::vector<std::uint32_t> words, entries, number(primitives_.size(), ~0u);
     std::vector<Wall> walls;
-    for (const auto& list : lists) {
+    std::vector<float4> boxes;
+    std::vector<std::size_t> boxed;  // the entries that say where boxes are
+    for (CellWalls& list : lists_) {
       words.push_back(static_cast<std::uint32_t>(entries.size()));
-      for (const std::uint32_t i : list) {
-        if (number[i] == ~0u) {
-          number[i] = static_cast<std::uint32_t>(walls.size());
-          walls.push_back(primitives_[i].wall);
-        }
-        entries.push_back(number[i]);
+      if (list.parting.empty()) continue;
+      entries.push_back(static_cast<std::uint32_t>(list.parting.size()));
+      entries.push_back(static_cast<std::uint32_t>(boxes.size()));
+      if (list.parting.size() > most_ungrouped) {
+        boxed.push_back(entries.size() - 1);
+        add_boxes(list.parting, boxes);
+      } else {
+        entries.back() = 0;
       }
+      for (const auto* part : {&list.parting, &list.others})
+        for (const std::uint32_t i : *part) {
+          if (number[i] == ~0u) {
+            number[i] = static_cast<std::uint32_t>(walls.size());
+            walls.push_back(primitives_[i].wall);
+          }
+          entries.push_back(number[i]);
+        }
     }
     if (walls.empty()) return no_walls();
     words.push_back(static_cast<std::uint32_t>(entries.size()));
+    const std::size_t header = (sizeof(WallGrid) + 4 * (words.size() + entries.size()) + 15) / 16;
+    for (const std::size_t i : boxed) entries[i] += static_cast<std::uint32_t>(header + 5 * walls.size());
     words.insert(words.end(), entries.begin(), entries.end());
-    while (words.size() % 4) words.push_back(0);
-    WallGrid grid{};
-    grid.origin = {static_cast<float>(low_.x), static_cast<float>(low_.y), static_cast<float>(low_.z),
-                   static_cast<float>(1 / cell_)};
-    grid.nx = static_cast<uint>(cells_[0]);
-    grid.ny = static_cast<uint>(cells_[1]);
-    grid.nz = static_cast<uint>(cells_[2]);
-    grid.first_wall = static_cast<uint>((sizeof grid + 4 * words.size()) / 16);
-    std::vector<std::byte> bytes(sizeof grid + 4 * words.size() + sizeof(Wall) * walls.size());
+    words.resize(4 * header - sizeof(WallGrid) / 4);
+    const WallGrid grid = header_of(static_cast<uint>(header));
+    std::vector<std::byte> bytes(16 * header + sizeof(Wall) * walls.size() + sizeof(float4) * boxes.size());
     std::memcpy(bytes.data(), &grid, sizeof grid);
     std::memcpy(bytes.data() + sizeof grid, words.data(), 4 * words.size());
-    std::memcpy(bytes.data() + std::size_t{16} * grid.first_wall, walls.data(), sizeof(Wall) * walls.size());
+    std::memcpy(bytes.data() + 16 * header, walls.data(), sizeof(Wall) * walls.size());
+    if (!boxes.empty())
+      std::memcpy(bytes.data() + 16 * header + sizeof(Wall) * walls.size(), boxes.data(),
+                  sizeof(float4) * boxes.size());
     return bytes;
+  }
+
+  WallGrid header_of(uint first_wall) const {
+    WallGrid grid{};
+    const Vec3 low = cells_.low();
+    grid.origin = {static_cast<float>(low.x), static_cast<float>(low.y), static_cast<float>(low.z),
+                   static_cast<float>(1 / cells_.edge())};
+    grid.nx = static_cast<uint>(cells_.along()[0]);
+    grid.ny = static_cast<uint>(cells_.along()[1]);
+    grid.nz = static_cast<uint>(cells_.along()[2]);
+    grid.first_wall = first_wall;
+    return grid;
+  }
+
+  /// Sorts the primitives so that near ones follow each other, and appends the boxes around their groups.
+  void add_boxes(std::vector<std::uint32_t>& numbers, std::vector<float4>& boxes) const {
+    const auto key = [&](std::uint32_t i) {
+      const Vec3 place = (primitives_[i].low - cells_.low()) / (0.25 * cells_.edge());
+      std::uint64_t code = 0;  // Morton's: bits of the three coordinates by turns
+      for (int bit = 20; bit >= 0; --bit)
+        for (int axis = 0; axis < 3; ++axis)
+          code = code << 1 | (static_cast<std::uint64_t>(std::clamp(place[axis], 0.0, 2e6)) >> bit & 1);
+      return code;
+    };
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    for (const std::uint32_t i : numbers) order.emplace_back(key(i), i);
+    std::sort(order.begin(), order.end());
+    for (std::size_t begin = 0; begin < order.size(); begin += WALL_GROUP) {
+      Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+      for (std::size_t i = begin; i < std::min(begin + WALL_GROUP, order.size()); ++i) {
+        numbers[i] = order[i].second;
+        for (int axis = 0; axis < 3; ++axis) {
+          low[axis] = std::min(low[axis], primitives_[numbers[i]].low[axis]);
+          high[axis] = std::max(high[axis], primitives_[numbers[i]].high[axis]);
+        }
+      }
+      for (const Vec3 corner : {low, high})
+        boxes.push_back(
+            {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(corner.z), 0});
+    }
   }
 };
 
@@ -211,8 +217,9 @@ class WallGridBuilder {
 
 std::vector<std::byte> no_walls() { return std::vector<std::byte>(sizeof(WallGrid)); }
 
-std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, double time, double radius) {
-  return WallGridBuilder(wall_primitives(scene, world, time), radius).build();
+std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, const LitSides& sides,
+                                 double time, double radius) {
+  return WallGridBuilder(wall_primitives(scene, world, sides, time), radius).build();
 }
 
 }  // namespace causticl

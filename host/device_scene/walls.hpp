@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "scene/lit_sides.hpp"
 #include "scene/scene.hpp"
 #include "world/flat_scene.hpp"
 
@@ -14,7 +15,8 @@ namespace causticl {
 /// `radius` about visible points of the scene at `time`. A cell lists the surfaces near it if one of them has
 /// surface on both sides that may hold photons of one normal. Where there is none, nothing parts photons from
 /// a visible point.
-std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, double time, double radius);
+std::vector<std::byte> wall_grid(const Scene& scene, const FlatScene& world, const LitSides& sides,
+                                 double time, double radius);
 
 /// The grid of a scene without walls.
 std::vector<std::byte> no_walls();

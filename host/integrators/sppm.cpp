@@ -8,6 +8,7 @@
 #include "device_scene/params.hpp"
 #include "device_scene/walls.hpp"
 #include "effects/effects.hpp"
+#include "scene/lit_sides.hpp"
 #include "shared/effects.h"
 
 namespace causticl {
@@ -139,11 +140,12 @@ void Sppm::trace_visible_points(const cl::Buffer& points, const Params& params) 
 /// each pass lists them anew.
 void Sppm::place_walls(std::uint32_t pass) {
   if (!walled_ || (walls_placed_ && !has_motion(scene_))) return;
+  if (!walls_placed_) lit_sides_ = lit_sides(scene_);
   walls_placed_ = true;
   const double time =
       has_motion(scene_) ? pass_time(scene_.camera, params_.seed, pass) : scene_.camera.shutter[0];
   const double widest = pilot_.first_radius * std::max(1.0, indirect_radius(spec_));
-  walls_ = device_.upload(wall_grid(scene_, flatten_scene(scene_, time), time, widest), "walls");
+  walls_ = device_.upload(wall_grid(scene_, flatten_scene(scene_, time), lit_sides_, time, widest), "walls");
   trace_camera_.setArg(first_argument_ + 4, walls_);
 }
 

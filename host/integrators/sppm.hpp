@@ -12,6 +12,7 @@
 #include "integrators/unknown_error.hpp"
 #include "photons/photon_map.hpp"
 #include "photons/pilot.hpp"
+#include "scene/lit_sides.hpp"
 
 namespace causticl {
 
@@ -56,6 +57,7 @@ class Sppm : public PassIntegrator {
   cl::Kernel trace_camera_, gather_photons_;
   cl_uint first_argument_ = 0;
   cl::Buffer walls_;  // a WallGrid
+  LitSides lit_sides_;
   bool walls_placed_ = false;
   std::size_t visible_point_bytes_, chunk_pixels_;
   cl::Buffer own_visible_points_, pixels_;

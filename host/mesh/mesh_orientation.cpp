@@ -1,172 +1,35 @@
 #include "mesh/mesh_orientation.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-
-#include "base/vec.hpp"
+#include "mesh/mesh_parts.hpp"
 
 namespace causticl {
 namespace {
 
-Vec3 to_vec(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
-
-/// For each position the first of those that are equal to it: exporters give every face corners of its own.
-std::vector<std::uint32_t> merge_equal(const std::vector<std::array<double, 3>>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-  return first;
+const MeshPart& outermost_around(const std::vector<MeshPart>& parts, const MeshPart& part) {
+  const MeshPart* result = &part;
+  for (const MeshPart& other : parts)
+    if (other.contains(*result) && !result->contains(other)) result = &other;
+  return *result;
 }
 
-// Of more parts each is compared with no other: the mesh counts as one.
-constexpr std::size_t most_parts = 4096;
-
-/// A connected part of a mesh.
-struct Part {
-  std::vector<std::uint32_t> triangles;
-  Vec3 low, high;
-  double volume = 0;     // signed, six times
-  double magnitude = 0;  // the sum of the absolute terms of `volume`
-  std::optional<bool> closed;
-
-  // Of a flat sheet with two sides rounding alone decides the sign.
-  bool is_inwards() const { return volume < -1e-9 * magnitude; }
-  bool contains(const Part& other) const {
-    bool inside = true;
-    for (int axis = 0; axis < 3; ++axis)
-      inside = inside && low[axis] <= other.low[axis] && other.high[axis] <= high[axis];
-    return inside;
+/// The triangles to turn.
+std::vector<std::uint32_t> inwards(const std::vector<MeshPart>& parts) {
+  std::vector<std::uint32_t> result;
+  for (const MeshPart& part : parts) {
+    const MeshPart& outermost = outermost_around(parts, part);
+    if (outermost.is_inwards() && outermost.closed && part.closed)
+      result.insert(result.end(), part.triangles.begin(), part.triangles.end());
   }
-};
-
-class Orientation {
- public:
-  explicit Orientation(const Mesh& mesh) : mesh_(mesh), merged_(merge_equal(mesh.positions)) {
-    find_parts();
-    for (Part& part : parts_) measure(part);
-  }
-
-  /// The triangles to turn.
-  std::vector<std::uint32_t> inwards() {
-    std::vector<std::uint32_t> result;
-    for (Part& part : parts_) {
-      Part& outermost = parts_[outermost_around(part)];
-      if (outermost.is_inwards() && is_closed(outermost) && is_closed(part))
-        result.insert(result.end(), part.triangles.begin(), part.triangles.end());
-    }
-    return result;
-  }
-
- private:
-  const Mesh& mesh_;
-  const std::vector<std::uint32_t> merged_;
-  std::vector<Part> parts_;
-
-  std::array<std::uint32_t, 3> corners(std::size_t triangle) const {
-    const auto& [a, b, c] = mesh_.position_index[triangle];
-    return {merged_[a], merged_[b], merged_[c]};
-  }
-
-  void find_parts() {
-    // A forest of positions, whose trees are joined by the triangles.
-    std::vector<std::uint32_t> parent(mesh_.positions.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t p) {
-      while (parent[p] != p) p = parent[p] = parent[parent[p]];
-      return p;
-    };
-    for (std::size_t t = 0; t < mesh_.triangles(); ++t) {
-      const auto [a, b, c] = corners(t);
-      parent[root(b)] = root(a);
-      parent[root(c)] = root(a);
-    }
-    std::vector<std::uint32_t> part_of(mesh_.positions.size(), no_index);
-    for (std::size_t t = 0; t < mesh_.triangles(); ++t) {
-      std::uint32_t& part = part_of[root(corners(t)[0])];
-      if (part == no_index) {
-        part = static_cast<std::uint32_t>(parts_.size());
-        parts_.emplace_back();
-      }
-      parts_[part].triangles.push_back(static_cast<std::uint32_t>(t));
-    }
-    if (parts_.size() <= most_parts) return;
-    parts_.assign(1, {});
-    parts_[0].triangles.resize(mesh_.triangles());
-    std::iota(parts_[0].triangles.begin(), parts_[0].triangles.end(), 0u);
-  }
-
-  void measure(Part& part) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    part.low = {infinity, infinity, infinity};
-    part.high = -part.low;
-    for (const std::uint32_t t : part.triangles)
-      for (const std::uint32_t corner : corners(t))
-        for (int axis = 0; axis < 3; ++axis) {
-          part.low[axis] = std::min(part.low[axis], mesh_.positions[corner][axis]);
-          part.high[axis] = std::max(part.high[axis], mesh_.positions[corner][axis]);
-        }
-    // About the centre: far from the origin large terms would cancel.
-    const Vec3 centre = 0.5 * (part.low + part.high);
-    for (const std::uint32_t t : part.triangles) {
-      const auto [a, b, c] = corners(t);
-      const double term =
-          dot(to_vec(mesh_.positions[a]) - centre,
-              cross(to_vec(mesh_.positions[b]) - centre, to_vec(mesh_.positions[c]) - centre));
-      part.volume += term;
-      part.magnitude += std::fabs(term);
-    }
-  }
-
-  std::size_t outermost_around(const Part& part) const {
-    auto result = static_cast<std::size_t>(&part - parts_.data());
-    for (std::size_t i = 0; i < parts_.size(); ++i)
-      if (parts_[i].contains(parts_[result]) && !parts_[result].contains(parts_[i])) result = i;
-    return result;
-  }
-
-  /// Whether each edge is run along as often in one direction as in the other.
-  bool is_closed(Part& part) const {
-    if (!part.closed) part.closed = has_balanced_edges(part);
-    return *part.closed;
-  }
-
-  bool has_balanced_edges(const Part& part) const {
-    std::vector<std::array<std::uint32_t, 3>> edges;  // lower and higher end, and whether it runs upwards
-    edges.reserve(3 * part.triangles.size());
-    for (const std::uint32_t t : part.triangles) {
-      const auto ends = corners(t);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t a = ends[i], b = ends[(i + 1) % 3];
-        if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b});
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-      std::ptrdiff_t balance = 0;
-      for (; end < edges.size() && edges[end][0] == edges[begin][0] && edges[end][1] == edges[begin][1];
-           ++end)
-        balance += edges[end][2] ? 1 : -1;
-      if (balance != 0) return false;
-    }
-    return true;
-  }
-};
+  return result;
+}
 
 }  // namespace
 
 std::optional<Mesh> turned_outwards(const Mesh& mesh) {
-  const std::vector<std::uint32_t> inwards = Orientation(mesh).inwards();
-  if (inwards.empty()) return {};
+  const std::vector<std::uint32_t> turned_triangles = inwards(mesh_parts(mesh));
+  if (turned_triangles.empty()) return {};
   Mesh turned = mesh;
-  for (const std::uint32_t t : inwards)
+  for (const std::uint32_t t : turned_triangles)
     for (auto* index : {&turned.position_index, &turned.normal_index, &turned.uv_index})
       if (!index->empty()) std::swap((*index)[t][1], (*index)[t][2]);
   return turned;

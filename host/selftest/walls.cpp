@@ -17,6 +17,7 @@ constexpr const char* source = R"(
 typedef struct {
   Wall wall;
   float4 point, point_normal, photon, photon_normal;
+  uint4 number;  // of the wall
 } Pair;
 kernel void parted(global const Pair *in, global uint *out, uint count) {
   uint i = get_global_id(0);
@@ -26,9 +27,10 @@ kernel void parted(global const Pair *in, global uint *out, uint count) {
   near.normal = convert_real3(in[i].point_normal.xyz);
   near.rounding = (real)WALL_ROUNDING * max_component(fabs(near.point));
   near.walls = &in[i].wall;
-  near.count = 1;
-  near.all = false;
-  near.near[0] = 0;
+  near.listed = (global const uint *)&in[i].number;
+  near.boxes = 0;
+  near.parting = near.listed_count = near.count = 1;
+  near.all = true;
   out[i] = walls_between(&near, convert_real3(in[i].photon.xyz), convert_real3(in[i].photon_normal.xyz));
 }
 )";
@@ -36,6 +38,7 @@ kernel void parted(global const Pair *in, global uint *out, uint count) {
 struct Pair {
   std::array<float, sizeof(Wall) / sizeof(float)> wall;
   std::array<float, 4> point, point_normal, photon, photon_normal;
+  std::array<std::uint32_t, 4> number;
 };
 
 Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
@@ -136,8 +139,12 @@ Pair any_pair(InputRandom& random, std::uint64_t index) {
     y = origin + size * random.uniform(-0.2, 1) * along + size * random.uniform(-0.2, 1) * nx;
     x = y + reach * n + reach * random.uniform(-1, 1) * along;
   }
-  return {std::bit_cast<std::array<float, sizeof(Wall) / sizeof(float)>>(wall), words(x), words(nx), words(y),
-          words(ny)};
+  return {std::bit_cast<std::array<float, sizeof(Wall) / sizeof(float)>>(wall),
+          words(x),
+          words(nx),
+          words(y),
+          words(ny),
+          {}};
 }
 
 /// The verdict of the oracle wherever the wall is crossed or passed by for certain; a photon that landed in

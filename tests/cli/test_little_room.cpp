@@ -149,6 +149,8 @@ TEST_CASE("a full disk of kernels, one without room for files, and no /sys") {
                      "/sys is missing");
 }
 
+// AddressSanitizer needs terabytes of it.
+#if !defined(__SANITIZE_ADDRESS__)
 TEST_CASE("little address space: what needs no device works, and a line says what PoCL needs") {
   const TemporaryFolder folder;
   const auto limited = [](rlim_t megabytes) {
@@ -164,6 +166,7 @@ TEST_CASE("little address space: what needs no device works, and a line says wha
   check_device_error(run_measured(a_render, folder.path(""), limited(300)),
                      "the address space is limited to 300 MiB");
 }
+#endif
 
 TEST_CASE("a signal while kernels are compiled ends the run soon, and leaves nothing over") {
   const TemporaryFolder folder;

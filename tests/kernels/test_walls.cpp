@@ -6,6 +6,7 @@
 #include "device_scene/walls.hpp"
 #include "format/load_scene.hpp"
 #include "render/render_fixture.hpp"
+#include "scene/lit_sides.hpp"
 #include "temporary_folder.hpp"
 #include "vector_inputs.hpp"
 
@@ -55,7 +56,8 @@ std::vector<std::byte> all_walls(const std::vector<WallPrimitive>& primitives) {
   std::vector<Wall> walls;
   for (const auto& primitive : primitives)
     if (primitive.blocks) walls.push_back(primitive.wall);
-  std::vector<uint> words{0, static_cast<uint>(walls.size())};
+  const auto count = static_cast<uint>(walls.size());
+  std::vector<uint> words{0, count + 2, count, 0};
   for (uint i = 0; i < walls.size(); ++i) words.push_back(i);
   while (words.size() % 4) words.push_back(0);
   WallGrid grid{};
@@ -88,7 +90,8 @@ struct Place {
   Vec3 point, normal;
 };
 
-/// A point of a random surface, often of the floor where a wall stands on it, and the normal on one side.
+/// A point of a random surface, often of the floor where a wall stands on it, and the normal on a side that
+/// may be lit.
 Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primitives, double radius) {
   if (random.uniform() < 0.5) {
     const double wall = std::floor(random.uniform(0, 4));
@@ -113,7 +116,8 @@ Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primi
     const Vec3 u{random.uniform(-4, 4), random.uniform(0, 3), random.uniform(-3, 3)};
     point = u - dot(n, u - origin) * n;
   }
-  return {point, random.uniform() < 0.5 ? n : -n};
+  const double side = p.lit_side ? p.lit_side : random.uniform() < 0.5 ? 1 : -1;
+  return {point, side * n};
 }
 
 }  // namespace
@@ -121,7 +125,7 @@ Place random_place(RandomInputs& random, const std::vector<WallPrimitive>& primi
 TEST_CASE("the walls that a cell lists part what all surfaces part") {
   const Scene scene = scene_from_text(rooms);
   const FlatScene world = flatten_scene(scene);
-  const auto primitives = wall_primitives(scene, world, 0);
+  const auto primitives = wall_primitives(scene, world, lit_sides(scene), 0);
   for (const double radius : {0.02, 0.15, 0.6}) {
     INFO("radius " << radius);
     RandomInputs random(771);
@@ -154,7 +158,7 @@ TEST_CASE("the walls that a cell lists part what all surfaces part") {
       return test_device().download<cl_uint>(out, count);
     };
     const auto expected = verdicts(all_walls(primitives)),
-               found = verdicts(wall_grid(scene, world, 0, radius));
+               found = verdicts(wall_grid(scene, world, lit_sides(scene), 0, radius));
     std::size_t parted = 0, missed = 0, invented = 0;
     for (std::size_t i = 0; i < count; ++i) {
       parted += expected[i];
@@ -174,7 +178,7 @@ TEST_CASE("the halves of a parallelogram are one wall, other pairs of triangles 
     const Scene scene = load_scene(folder.write("scene.json", R"({
       "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
       "objects": [{"type": "mesh", "path": "mesh.obj", "material": {"type": "diffuse"}}]})"));
-    return wall_primitives(scene, flatten_scene(scene), 0);
+    return wall_primitives(scene, flatten_scene(scene), lit_sides(scene), 0);
   };
   const auto leaning = walls_of("v 0 0 0\nv 2 0 1\nv 3 1 1\nv 1 1 0\n");
   REQUIRE(leaning.size() == 1);
@@ -200,5 +204,5 @@ TEST_CASE("what has surface on one side alone is no wall") {
   const Scene scene = scene_from_text(R"({
     "camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
     "objects": [{"type": "box", "size": [2, 2, 2], "material": {"type": "diffuse"}}]})");
-  CHECK(wall_grid(scene, flatten_scene(scene), 0, 0.1).size() == no_walls().size());
+  CHECK(wall_grid(scene, flatten_scene(scene), lit_sides(scene), 0, 0.1).size() == no_walls().size());
 }

@@ -1,7 +1,11 @@
 // Two rooms on one floor: what is lit in the one is not seen in the other.
+#include <algorithm>
+#include <array>
+
 #include "catch2.hpp"
 
 #include "render_fixture.hpp"
+#include "temporary_folder.hpp"
 
 using namespace causticl;
 
@@ -62,6 +66,29 @@ TEST_CASE("a lamp in the next room lights nothing here") {
     }
 }
 
+TEST_CASE("a wall of many small triangles lets nothing through") {
+  // Smaller than half the radius, and than a quarter.
+  for (const int cells : {64, 160}) {
+    INFO(cells << " cells");
+    const TemporaryFolder folder;
+    std::string mesh;
+    for (int j = 0; j <= cells; ++j)
+      for (int i = 0; i <= cells; ++i)
+        mesh += "v 0 " + std::to_string(3.4 * j / cells - 1.2) + " " + std::to_string(3.4 * i / cells - 1.2) +
+                "\n";
+    for (int j = 0; j < cells; ++j)
+      for (int i = 0; i < cells; ++i) {
+        const int a = j * (cells + 1) + i + 1, b = a + cells + 1;
+        for (const auto& [p, q, r] : {std::array{a, a + 1, b + 1}, std::array{a, b + 1, b}})
+          mesh += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
+      }
+    const std::string file = folder.write("wall.obj", mesh);
+    Scene scene = rooms(R"({"type": "mesh", "material": "white", "path": ")" + file + "\"}", 0, 100);
+    const auto picture = render_with(scene, Integrator::sppm, 4).picture;
+    CHECK(*std::max_element(picture.rgb.begin(), picture.rgb.end()) == 0);
+  }
+}
+
 TEST_CASE("a bright lamp in the next room changes nothing here") {
   // What a pixel divides by is of the floor on this side alone: the foot of the wall is as bright as path
   // tracing has it.
@@ -71,4 +98,32 @@ TEST_CASE("a bright lamp in the next room changes nothing here") {
   const auto mapped = render_with(scene, Integrator::sppm, 48).picture;
   // One photon in a hundred is of the lamp on this side: the noise of the mean is about 2%.
   CHECK(mean_luminance(mapped) == Approx(mean_luminance(traced)).epsilon(0.06));
+}
+
+TEST_CASE("what lies on a thin ceiling does not light the floor beneath it") {
+  // Nothing but the floor is below the ceiling: its own upper side holds the photons.
+  const std::string up = R"({"type": "rotate", "axis": "x", "degree": -90}, )";
+  const auto flat = [&](const std::string& type, double height) {
+    return R"({"type": ")" + type +
+           R"(", "material": "white", "transform": [{"type": "scale", "x": 9, "y": 9, "z": 9}, )" + up +
+           shift(0, height, 0) + "]}";
+  };
+  for (const std::string type : {"plane", "rectangle"}) {
+    INFO(type);
+    // A rectangle lets light in at its edges, but for a box around it.
+    const std::string around = type == "plane" ? ""
+                                               : "," + box("white", "[0.2, 3, 9.2]", shift(-4.6, 0, 0)) +
+                                                     "," + box("white", "[0.2, 3, 9.2]", shift(4.6, 0, 0)) +
+                                                     "," + box("white", "[9.2, 3, 0.2]", shift(0, 0, -4.6)) +
+                                                     "," + box("white", "[9.2, 3, 0.2]", shift(0, 0, 4.6));
+    const Scene scene = scene_from_text(R"({"width": 32, "height": 24,
+      "camera": {"position": [0, 0.03, 0.5], "target": [0, 0.01, 0], "fov": 60},
+      "renderer": {"type": "sppm", "photon_sample": 20000, "radius": 0.12},
+      "materials": {"white": {"type": "diffuse", "color": [0.7, 0.7, 0.7]}},
+      "lights": [{"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1]}],
+      "objects": [)" + flat(type, 0) + "," +
+                                        flat(type, 0.04) + around + "]}");
+    const auto picture = render_with(scene, Integrator::sppm, 4).picture;
+    CHECK(*std::max_element(picture.rgb.begin(), picture.rgb.end()) == 0);
+  }
 }

@@ -1,0 +1,138 @@
+#include "scene/lit_sides.hpp"
+
+#include <algorithm>
+
+#include "mesh/mesh_parts.hpp"
+#include "scene/object_bounds.hpp"
+#include "scene/object_sides.hpp"
+
+namespace causticl {
+namespace {
+
+class LitSidesFinder {
+ public:
+  explicit LitSidesFinder(const Scene& scene) : scene_(scene) {
+    const Vec3 lens = Vec3{1, 1, 1} * scene.camera.aperture;
+    add_source(scene.camera.origin - lens, scene.camera.origin + lens);
+    for (const auto& light : scene.lights)
+      if (light.kind != DeltaLight::Kind::directional) add_source(light.position, light.position);
+    for (const auto& object : scene.objects)
+      if (max_component(material(object).emission) > 0) {
+        sources_.push_back(causticl::swept_bounds(scene, object));
+        endless_ = endless_ || object.shape == Object::Shape::plane;
+      }
+  }
+
+  LitSides find() {
+    for (const auto& object : scene_.objects)
+      if (object.shape == Object::Shape::plane) sides_.shapes.push_back(of_flat(object));
+    for (const auto& object : scene_.objects) switch (object.shape) {
+        case Object::Shape::plane:
+          break;
+        case Object::Shape::mesh:
+          add_mesh(object);
+          break;
+        case Object::Shape::rectangle:
+          add_triangles(2, of_flat(object));
+          break;
+        case Object::Shape::box:
+          add_triangles(12, is_dark_inside(object) ? 1 : 0);
+          break;
+        case Object::Shape::sphere:
+          sides_.shapes.push_back(is_dark_inside(object) ? 1 : 0);
+          break;
+        case Object::Shape::disk:
+          sides_.shapes.push_back(of_flat(object));
+          break;
+        case Object::Shape::bezier:
+          sides_.shapes.push_back(0);
+      }
+    return std::move(sides_);
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<BoundingBox> sources_;  // of light, and the lens
+  bool endless_ = false;              // an infinite plane emits
+  LitSides sides_;
+  std::int32_t parts_ = 0;
+
+  const MaterialSpec& material(const Object& object) const {
+    return scene_.materials[static_cast<std::size_t>(object.material)];
+  }
+
+  void add_source(Vec3 low, Vec3 high) {
+    BoundingBox box;
+    box.add(low);
+    box.add(high);
+    sources_.push_back(box);
+  }
+
+  bool holds_no_source(const BoundingBox& bounds) const {
+    return std::none_of(sources_.begin(), sources_.end(),
+                        [&](const BoundingBox& source) { return overlap(bounds, source); });
+  }
+
+  bool is_opaque(const Object& object) const { return material(object).kind != MaterialSpec::Kind::glass; }
+
+  bool is_dark_inside(const Object& object) const {
+    return !endless_ && is_opaque(object) && holds_no_source(causticl::swept_bounds(scene_, object));
+  }
+
+  std::int8_t of_flat(const Object& object) const {
+    const int lit = sides_that_may_be_lit(scene_, object);
+    return lit == front_side ? 1 : lit == back_side ? -1 : 0;
+  }
+
+  void add_mesh(const Object& object) {
+    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(object.mesh)];
+    const std::size_t first = sides_.triangles.size();
+    add_triangles(mesh.triangles(), 0);
+    const bool may_be_dark = !endless_ && is_opaque(object);
+    for (const MeshPart& part : mesh_parts(mesh)) {
+      const bool dark =
+          may_be_dark && part.closed && part.has_volume() && holds_no_source(swept_bounds(object, part));
+      for (const std::uint32_t t : part.triangles) {
+        if (dark) sides_.triangles[first + t] = part.is_inwards() ? -1 : 1;
+        sides_.parts[first + t] = parts_;
+      }
+      ++parts_;
+    }
+  }
+
+  void add_triangles(std::size_t count, std::int8_t side) {
+    sides_.triangles.insert(sides_.triangles.end(), count, side);
+    sides_.parts.insert(sides_.parts.end(), count, -1);
+  }
+
+  BoundingBox swept_bounds(const Object& object, const MeshPart& part) const {
+    BoundingBox bounds;
+    for (const double time : scene_.camera.shutter)
+      for (int corner = 0; corner < 8; ++corner)
+        bounds.add(object.transform.point({corner & 1 ? part.high.x : part.low.x,
+                                           corner & 2 ? part.high.y : part.low.y,
+                                           corner & 4 ? part.high.z : part.low.z}) +
+                   time * object.motion);
+    return bounds;
+  }
+};
+
+}  // namespace
+
+LitSides lit_sides(const Scene& scene) { return LitSidesFinder(scene).find(); }
+
+int sides_that_may_be_lit(const Scene& scene, const Object& object) {
+  constexpr int both = front_side | back_side;
+  if (has_motion(scene) || scene.environment || max_component(scene.medium.scattering) > 0) return both;
+  int sides = 0;
+  for (const auto& light : scene.lights)
+    sides |= light.kind == DeltaLight::Kind::directional ? both : side_with(object, light.position);
+  for (const double step : {-1.0, 0.0, 1.0})  // across the lens, as if it faced the object
+    sides |= side_with(object, scene.camera.origin + step * scene.camera.aperture *
+                                                         normalize(object.transform.inverse().rows[2]));
+  for (const auto& other : scene.objects)
+    if (&other != &object) sides |= sides_with(object, scene, other);
+  return sides;
+}
+
+}  // namespace causticl

@@ -1,0 +1,25 @@
+// Which objects lie on which side of flat ones.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace causticl {
+
+/// Whether it is an infinite plane, a rectangle or a disk.
+bool is_flat(const Object& object);
+
+/// Corners of a box around the object, in world space at time 0; of an infinite plane none.
+std::vector<Vec3> object_corners(const Scene& scene, const Object& object);
+
+// The sides of a flat object: that of its normal, and the other.
+constexpr int front_side = 1, back_side = 2;
+
+/// On which sides of the flat `wall` the other object has, or by its box may have, some of itself.
+int sides_with(const Object& wall, const Scene& scene, const Object& other);
+
+/// On which side of the flat object the point is; 0 where it is in its plane.
+int side_with(const Object& wall, Vec3 point);
+
+}  // namespace causticl
