@@ -31,56 +31,74 @@ Box box_of(const std::vector<Vec3>& points) {
   return box;
 }
 
-/// Whether a search radius may take in something of both: if the gap between them is a quarter of the larger
-/// at most.
-bool are_near(const Scene& scene, const Object& wall, const Object& other) {
-  constexpr double near = 0.25;
-  const auto points = object_corners(scene, wall);
-  const Box a = box_of(points);
-  if (other.shape == Shape::plane) {
-    const Vec3 n = normalize(other.transform.inverse().rows[2]);
-    double low = INFINITY, high = -INFINITY;
-    for (const Vec3 p : points) {
-      low = std::min(low, dot(n, p - other.transform.translation));
-      high = std::max(high, dot(n, p - other.transform.translation));
-    }
-    return std::max(low, -high) <= near * a.edge();
+/// The scene with what is asked of its objects again and again.
+class WallsFinder {
+ public:
+  explicit WallsFinder(const Scene& scene) : scene_(scene) {
+    for (const auto& object : scene.objects) corners_.push_back(object_corners(scene, object));
   }
-  const Box b = box_of(object_corners(scene, other));
-  Vec3 gap;
-  for (int axis = 0; axis < 3; ++axis)
-    gap[axis] = std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]});
-  return length(gap) <= near * std::max(a.edge(), b.edge());
-}
 
-bool may_part(const Scene& scene, const Object& wall) {
-  const MaterialSpec& material = material_of(scene, wall);
-  if (material.kind == MaterialSpec::Kind::glass && !material.alpha_diffuse) return false;
-  const bool moves = has_motion(scene);
-  // On which sides of a flat wall there is something that holds photons, and what of it is near.
-  int found = 0, near = 0;
-  const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier;
-  for (const Object& other : scene.objects) {
-    if (!stores_photons(material_of(scene, other)) || (is_flat(wall) && &other == &wall)) continue;
-    if (is_flat(wall) && !moves) {
-      const int on = sides_with(wall, scene, other);
-      found |= on;
-      near |= are_near(scene, wall, other) ? on : 0;
-    } else if (&other == &wall ? several : moves || are_near(scene, wall, other)) {
-      return true;
+  /// Whether the object may stand between photons and a visible point.
+  bool may_part(std::size_t index) const {
+    const Object& wall = scene_.objects[index];
+    const MaterialSpec& material = material_of(scene_, wall);
+    if (material.kind == MaterialSpec::Kind::glass && !material.alpha_diffuse) return false;
+    const bool moves = has_motion(scene_);
+    // On which sides of a flat wall there is something that holds photons, and what of it is near.
+    int found = 0, near = 0;
+    const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier;
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+      const Object& other = scene_.objects[i];
+      if (!stores_photons(material_of(scene_, other)) || (is_flat(wall) && i == index)) continue;
+      if (is_flat(wall) && !moves) {
+        const int on = sides_with(wall, other, corners_[i]);
+        found |= on;
+        near |= are_near(index, i) ? on : 0;
+      } else if (i == index ? several : moves || are_near(index, i)) {
+        return true;
+      }
     }
+    if (found == (front_side | back_side)) return true;
+    // Itself it holds photons on the other side.
+    return near != 0 && stores_photons(material) && (sides_that_may_be_lit(scene_, wall) & ~near) != 0;
   }
-  if (found == 3) return true;
-  // Itself it holds photons on the other side.
-  return near != 0 && stores_photons(material) && (sides_that_may_be_lit(scene, wall) & ~near) != 0;
-}
+
+ private:
+  const Scene& scene_;
+  std::vector<std::vector<Vec3>> corners_;  // of each object
+
+  /// Whether a search radius may take in something of both: if the gap between them is a quarter of the
+  /// larger at most. Of two infinite planes nothing is known.
+  bool are_near(std::size_t first, std::size_t second) const {
+    constexpr double near = 0.25;
+    if (scene_.objects[first].shape == Shape::plane) std::swap(first, second);
+    if (scene_.objects[first].shape == Shape::plane) return true;
+    const Box a = box_of(corners_[first]);
+    const Object& other = scene_.objects[second];
+    if (other.shape == Shape::plane) {
+      const Vec3 n = normalize(other.transform.inverse().rows[2]);
+      double low = INFINITY, high = -INFINITY;
+      for (const Vec3 p : corners_[first]) {
+        low = std::min(low, dot(n, p - other.transform.translation));
+        high = std::max(high, dot(n, p - other.transform.translation));
+      }
+      return std::max(low, -high) <= near * a.edge();
+    }
+    const Box b = box_of(corners_[second]);
+    Vec3 gap;
+    for (int axis = 0; axis < 3; ++axis)
+      gap[axis] = std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]});
+    return length(gap) <= near * std::max(a.edge(), b.edge());
+  }
+};
 
 }  // namespace
 
 std::string walls_reason(const Scene& scene) {
-  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
-                                  [&](const Object& object) { return may_part(scene, object); });
-  return found == scene.objects.end() ? "" : "surfaces about " + found->pointer;
+  const WallsFinder finder(scene);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (finder.may_part(i)) return "surfaces about " + scene.objects[i].pointer;
+  return "";
 }
 
 }  // namespace causticl

@@ -16,11 +16,13 @@ class LitSidesFinder {
     add_source(scene.camera.origin - lens, scene.camera.origin + lens);
     for (const auto& light : scene.lights)
       if (light.kind != DeltaLight::Kind::directional) add_source(light.position, light.position);
-    for (const auto& object : scene.objects)
+    for (const auto& object : scene.objects) {
+      corners_.push_back(object_corners(scene, object));
       if (max_component(material(object).emission) > 0) {
         sources_.push_back(causticl::swept_bounds(scene, object));
         endless_ = endless_ || object.shape == Object::Shape::plane;
       }
+    }
   }
 
   LitSides find() {
@@ -50,10 +52,25 @@ class LitSidesFinder {
     return std::move(sides_);
   }
 
+  int sides_that_may_be_lit(const Object& object) const {
+    constexpr int both = front_side | back_side;
+    if (has_motion(scene_) || scene_.environment || max_component(scene_.medium.scattering) > 0) return both;
+    int sides = 0;
+    for (const auto& light : scene_.lights)
+      sides |= light.kind == DeltaLight::Kind::directional ? both : side_with(object, light.position);
+    for (const double step : {-1.0, 0.0, 1.0})  // across the lens, as if it faced the object
+      sides |= side_with(object, scene_.camera.origin + step * scene_.camera.aperture *
+                                                            normalize(object.transform.inverse().rows[2]));
+    for (std::size_t i = 0; i < scene_.objects.size() && sides != both; ++i)
+      if (&scene_.objects[i] != &object) sides |= sides_with(object, scene_.objects[i], corners_[i]);
+    return sides;
+  }
+
  private:
   const Scene& scene_;
-  std::vector<BoundingBox> sources_;  // of light, and the lens
-  bool endless_ = false;              // an infinite plane emits
+  std::vector<std::vector<Vec3>> corners_;  // of each object
+  std::vector<BoundingBox> sources_;        // of light, and the lens
+  bool endless_ = false;                    // an infinite plane emits
   LitSides sides_;
   std::int32_t parts_ = 0;
 
@@ -80,7 +97,7 @@ class LitSidesFinder {
   }
 
   std::int8_t of_flat(const Object& object) const {
-    const int lit = sides_that_may_be_lit(scene_, object);
+    const int lit = sides_that_may_be_lit(object);
     return lit == front_side ? 1 : lit == back_side ? -1 : 0;
   }
 
@@ -122,17 +139,7 @@ class LitSidesFinder {
 LitSides lit_sides(const Scene& scene) { return LitSidesFinder(scene).find(); }
 
 int sides_that_may_be_lit(const Scene& scene, const Object& object) {
-  constexpr int both = front_side | back_side;
-  if (has_motion(scene) || scene.environment || max_component(scene.medium.scattering) > 0) return both;
-  int sides = 0;
-  for (const auto& light : scene.lights)
-    sides |= light.kind == DeltaLight::Kind::directional ? both : side_with(object, light.position);
-  for (const double step : {-1.0, 0.0, 1.0})  // across the lens, as if it faced the object
-    sides |= side_with(object, scene.camera.origin + step * scene.camera.aperture *
-                                                         normalize(object.transform.inverse().rows[2]));
-  for (const auto& other : scene.objects)
-    if (&other != &object) sides |= sides_with(object, scene, other);
-  return sides;
+  return LitSidesFinder(scene).sides_that_may_be_lit(object);
 }
 
 }  // namespace causticl

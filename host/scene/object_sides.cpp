@@ -62,14 +62,14 @@ std::vector<Vec3> object_corners(const Scene& scene, const Object& object) {
   return points;
 }
 
-int sides_with(const Object& wall, const Scene& scene, const Object& other) {
+int sides_with(const Object& wall, const Object& other, const std::vector<Vec3>& corners) {
   const Vec3 n = normalize(wall.transform.inverse().rows[2]);
   const Vec3 origin = wall.transform.translation;
   if (other.shape == Shape::plane) {
     const Vec3 m = normalize(other.transform.inverse().rows[2]);
     if (length(cross(m, n)) > 1e-6) return front_side | back_side;
   }
-  auto points = object_corners(scene, other);
+  auto points = corners;
   if (points.empty()) points = {other.transform.translation};
   double low = 0, high = 0, size = 0;
   for (const Vec3 p : points) {

@@ -116,13 +116,14 @@ TEST_CASE("what lies on a thin ceiling does not light the floor beneath it") {
                                                      "," + box("white", "[0.2, 3, 9.2]", shift(4.6, 0, 0)) +
                                                      "," + box("white", "[9.2, 3, 0.2]", shift(0, 0, -4.6)) +
                                                      "," + box("white", "[9.2, 3, 0.2]", shift(0, 0, 4.6));
-    const Scene scene = scene_from_text(R"({"width": 32, "height": 24,
+    Scene scene = scene_from_text(R"({"width": 32, "height": 24,
       "camera": {"position": [0, 0.03, 0.5], "target": [0, 0.01, 0], "fov": 60},
       "renderer": {"type": "sppm", "photon_sample": 20000, "radius": 0.12},
       "materials": {"white": {"type": "diffuse", "color": [0.7, 0.7, 0.7]}},
       "lights": [{"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1]}],
-      "objects": [)" + flat(type, 0) + "," +
-                                        flat(type, 0.04) + around + "]}");
+      "objects": [)" + flat(type, 0) +
+                                  "," + flat(type, 0.04) + around + "]}");
+    scene.renderer.direct_light = DirectLight::photons;  // so that the ceiling holds photons
     const auto picture = render_with(scene, Integrator::sppm, 4).picture;
     CHECK(*std::max_element(picture.rgb.begin(), picture.rgb.end()) == 0);
   }
