@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 
 namespace causticl {
 namespace {
@@ -49,12 +49,12 @@ WallReach PartingWalls::reach() const {
 void PartingWalls::choose_representatives() {
   constexpr double most_cubes = 1 << 16;  // along each axis
   representative_.resize(primitives_.size());
-  std::unordered_map<std::uint64_t, std::uint32_t> first;
+  // By the part of a mesh: what parts two sheets must not stand for both.
+  std::map<std::pair<std::int32_t, std::uint64_t>, std::uint32_t> first;
   for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
     representative_[i] = i;
     const WallPrimitive& primitive = primitives_[i];
-    if (primitive.corners.size() != 3 ||
-        !(max_component(primitive.high - primitive.low) <= cube_ratio * radius_))
+    if (primitive.corners.empty() || !(max_component(primitive.high - primitive.low) <= cube_ratio * radius_))
       continue;
     const Vec3 place = (primitive.low - cells_.low()) / (cube_ratio * radius_);
     if (!(max_component(place) < most_cubes)) continue;
@@ -63,7 +63,7 @@ void PartingWalls::choose_representatives() {
     for (int axis = 0; axis < 3; ++axis) key = key << 16 | static_cast<std::uint64_t>(place[axis]);
     const auto likeness = static_cast<std::uint64_t>(
         (primitive.blocks ? 1 : 0) + (primitive.receives ? 2 : 0) + 4 * (primitive.lit_side + 1));
-    representative_[i] = first.try_emplace(key << 4 | likeness, i).first->second;
+    representative_[i] = first.try_emplace({primitive.part, key << 4 | likeness}, i).first->second;
   }
 }
 

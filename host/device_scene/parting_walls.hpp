@@ -10,8 +10,9 @@
 
 namespace causticl {
 
-/// Asks parts_others() for the primitives of a scene. Of the tiny ones in a cube of a quarter of the radius
-/// that lie alike one stands for all, so that dense meshes take little longer than coarse ones.
+/// Asks parts_others() for the primitives of a scene. Of the tiny ones of a part of a mesh in a cube
+/// of a quarter of the radius that lie alike one stands for all, so that dense meshes take little longer than
+/// coarse ones.
 class PartingWalls {
  public:
   /// Of the radius: primitives of one part of a mesh that are no larger do not part each other.

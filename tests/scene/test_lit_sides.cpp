@@ -86,15 +86,15 @@ TEST_CASE("the inner sides of what is closed and opaque are dark") {
 
 TEST_CASE("dense sheets are walls of each other, not of themselves") {
   const TemporaryFolder folder;
-  constexpr int cells = 24;
+  constexpr int cells = 40;  // smaller than a quarter of the radius
   constexpr int second = (cells + 1) * (cells + 1) + 1;
   const auto walled = [&](const std::string& mesh) {
     return has_walls(mesh_scene(folder, mesh, "diffuse"), 0.3);
   };
   CHECK_FALSE(walled(sheet(cells, 0, true)));
-  CHECK(walled(sheet(cells, 0, true) + sheet(cells, 0.05, true, second)));
+  CHECK(walled(sheet(cells, 0, true) + sheet(cells, 0.01, true, second)));
   // Open, so that light may be between them.
-  CHECK(walled(sheet(cells, 0, true) + sheet(cells, 0.05, false, second)));
+  CHECK(walled(sheet(cells, 0, true) + sheet(cells, 0.01, false, second)));
 }
 
 TEST_CASE("the two sides of a thin body need no wall, those of two bodies do") {
