@@ -77,15 +77,14 @@ bool PartingWalls::parts(std::uint32_t i) {
     const WallPrimitive& wall = primitives_[i];
     const Vec3 half = 0.5 * (wall.high - wall.low) + Vec3{1, 1, 1} * cells_.tolerance();
     const WallBox box{0.5 * (wall.low + wall.high), half};
-    const bool parting =
-        looks_left_ == 0 || parts(i, others_in({box.centre, half + Vec3{1, 1, 1} * reach().path}), box);
+    const bool parting = parts(i, others_in({box.centre, half + Vec3{1, 1, 1} * reach().path}), box);
     answers_[i] = parting ? Answer::yes : Answer::no;
   }
   return answers_[i] == Answer::yes;
 }
 
 bool PartingWalls::parts(std::uint32_t i, const Primitives& others, const WallBox& box) {
-  if (others.size() > looks_left_) {
+  if (others.size() >= looks_left_) {
     looks_left_ = 0;
     return true;
   }
@@ -93,11 +92,13 @@ bool PartingWalls::parts(std::uint32_t i, const Primitives& others, const WallBo
   return parts_others(bins_, primitives_[i], others, box, reach());
 }
 
-PartingWalls::Primitives PartingWalls::others_in(const WallBox& box) const {
+PartingWalls::Primitives PartingWalls::others_in(const WallBox& box) {
+  if (looks_left_ == 0) return {};
   std::vector<std::uint32_t> found = planes_;
   cells_.visit(box.centre - box.half, box.centre + box.half, 0, [&](std::size_t index) {
     found.insert(found.end(), occupants_[index].begin(), occupants_[index].end());
   });
+  looks_left_ -= std::min(looks_left_, found.size() / 4);  // which takes time as well
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   Primitives result;

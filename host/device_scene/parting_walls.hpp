@@ -32,8 +32,8 @@ class PartingWalls {
   /// Whether what lies of the primitive in the box parts others, which are those of others_in(box).
   bool parts(std::uint32_t i, const Primitives& others, const WallBox& box);
 
-  /// What may lie in the box. Tiny primitives have one that stands for them.
-  Primitives others_in(const WallBox& box) const;
+  /// What may lie in the box. Tiny primitives have one that stands for them. Nothing where no time is left.
+  Primitives others_in(const WallBox& box);
 
  private:
   enum class Answer : char { unknown, no, yes };

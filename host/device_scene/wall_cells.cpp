@@ -26,8 +26,9 @@ WallCells::WallCells(const std::vector<WallPrimitive>& primitives, double least_
   high = high + margin;
   // As the kernel's floats have it.
   for (int axis = 0; axis < 3; ++axis) low_[axis] = static_cast<float>(low_[axis]);
-  edge_ = 1 / static_cast<double>(
-                  static_cast<float>(1 / std::max(least_edge, max_component(high - low_) / most_cells)));
+  // Cells that are finer than what rounding leaves of places would tell nothing apart.
+  const double edge = std::max({least_edge, 4 * tolerance_, max_component(high - low_) / most_cells});
+  edge_ = 1 / static_cast<double>(static_cast<float>(1 / edge));
   for (int axis = 0; axis < 3; ++axis)
     cells_[axis] = static_cast<int>(std::ceil((high[axis] - low_[axis]) / edge_)) + 1;
 }

@@ -12,7 +12,8 @@ namespace causticl {
 class WallCells {
  public:
   /// Around all primitives that are bounded, so far that what lies beyond is near nothing bounded: farther
-  /// than `reach`. Cells have edges of `least_edge` or, where they would be too many, longer ones.
+  /// than `reach`. Cells have edges of `least_edge` or, where they would be too many or too fine for floats,
+  /// longer ones.
   WallCells(const std::vector<WallPrimitive>& primitives, double least_edge, double reach);
 
   std::size_t count() const {
