@@ -59,13 +59,16 @@ WallSides faced_by(const WallPrimitive& other, const WallPrimitive& wall,
     if (gap_between(other, wall) <= std::sqrt(3.0) * reach.tiny &&
         std::fabs(dot(n, normal_of(wall))) < wall_bent_cosine)
       return sides;
-  } else if (size_of(wall) > 4 * size_of(other)) {
-    return sides;  // its samples may all be beside what rises
   }
+  // Of what is much larger than the other all samples may be beside the place where it rises.
+  const bool samples_tell = size_of(wall) <= 1.5 * size_of(other);
+  const double gap = gap_between(other, wall);
   WallSides faced;
   for (const Vec3 point : samples(wall_polygon)) {
     const double height = dot(n, point - other.corners[0]);
-    const double distance = tiny ? length(point - middle) : distance_to(other.corners, n, point);
+    const double distance = !samples_tell ? gap
+                            : tiny        ? length(point - middle)
+                                          : distance_to(other.corners, n, point);
     if (std::fabs(height) <= wall_steepness * distance) continue;
     faced.front = faced.front || height > reach.tolerance;
     faced.back = faced.back || height < -reach.tolerance;

@@ -159,7 +159,12 @@ bool parts_others(const NormalBins& bins, const WallPrimitive& wall,
       const auto polygon = is_within(*other, region) ? other->corners : clipped(other->corners, region);
       if (!other->corners.empty() && polygon.empty()) continue;
       const bool itself = other == &wall;
-      const WallSides where = itself ? WallSides{} : sides_of(wall, *other, polygon, reach.tolerance);
+      // The inside of a sphere and the outside.
+      if (itself && wall.wall.origin.w == WALL_SPHERE && wall.lit_side == 0) return true;
+      // What stands for others tells no more than that these are near it.
+      const bool stands_for_others = other->part >= 0 && !own && size_of(*other) <= reach.tiny;
+      const double tolerance = stands_for_others ? -std::sqrt(3.0) * reach.tiny : reach.tolerance;
+      const WallSides where = itself ? WallSides{} : sides_of(wall, *other, polygon, tolerance);
       const WallSides faced = itself ? WallSides{} : faced_by(*other, wall, wall_polygon, reach);
       for (const int side : {1, -1}) {
         if (side == -other->lit_side) continue;

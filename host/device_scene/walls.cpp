@@ -65,11 +65,14 @@ class WallGridBuilder {
     near_.resize(cells_.count());
     for (const auto& primitive : primitives_) {
       const bool dense = primitive.part >= 0 && max_component(primitive.high - primitive.low) <= dense_;
+      // The inside of a sphere and the outside may be all there is.
+      const bool has_two_sides = primitive.wall.origin.w == WALL_SPHERE && primitive.lit_side == 0;
       cells_.visit(
           primitive, reach_, [](std::size_t) { return true; },
           [&](std::size_t index) {
             Cell& cell = near_[index];
-            if (cell.count++ == 0) cell.part = primitive.part;
+            if (cell.count == 0) cell.part = primitive.part;
+            cell.count += has_two_sides ? 2 : 1;
             cell.is_dense_part = cell.is_dense_part && dense && primitive.part == cell.part;
           });
       if (primitive.receives)

@@ -46,7 +46,9 @@ class WallsFinder {
     const bool moves = has_motion(scene_);
     // On which sides of a flat wall there is something that holds photons, and what of it is near.
     int found = 0, near = 0;
-    const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier;
+    const bool several =
+        wall.shape == Shape::mesh || wall.shape == Shape::bezier ||
+        ((wall.shape == Shape::sphere || wall.shape == Shape::box) && may_be_lit_inside(scene_, wall));
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& other = scene_.objects[i];
       if (!stores_photons(material_of(scene_, other)) || (is_flat(wall) && i == index)) continue;
@@ -71,6 +73,8 @@ class WallsFinder {
   /// larger at most. Of two infinite planes nothing is known.
   bool are_near(std::size_t first, std::size_t second) const {
     constexpr double near = 0.25;
+    const RendererSpec& renderer = scene_.renderer;
+    const double stated = 1.4 * renderer.radius.value_or(0) * std::max(1.0, indirect_radius(renderer));
     if (scene_.objects[first].shape == Shape::plane) std::swap(first, second);
     if (scene_.objects[first].shape == Shape::plane) return true;
     const Box a = box_of(corners_[first]);
@@ -82,13 +86,13 @@ class WallsFinder {
         low = std::min(low, dot(n, p - other.transform.translation));
         high = std::max(high, dot(n, p - other.transform.translation));
       }
-      return std::max(low, -high) <= near * a.edge();
+      return std::max(low, -high) <= std::max(stated, near * a.edge());
     }
     const Box b = box_of(corners_[second]);
     Vec3 gap;
     for (int axis = 0; axis < 3; ++axis)
       gap[axis] = std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]});
-    return length(gap) <= near * std::max(a.edge(), b.edge());
+    return length(gap) <= std::max(stated, near * std::max(a.edge(), b.edge()));
   }
 };
 

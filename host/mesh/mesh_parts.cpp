@@ -50,30 +50,39 @@ class PartFinder {
   }
 
   std::vector<MeshPart> connected() const {
-    // A forest of positions, whose trees are joined by the triangles.
-    std::vector<std::uint32_t> parent(mesh_.positions.size());
+    // A forest of triangles, whose trees are joined by the edges.
+    std::vector<std::uint32_t> parent(mesh_.triangles());
     std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t p) {
-      while (parent[p] != p) p = parent[p] = parent[parent[p]];
-      return p;
+    const auto root = [&](std::uint32_t t) {
+      while (parent[t] != t) t = parent[t] = parent[parent[t]];
+      return t;
     };
-    for (std::size_t t = 0; t < mesh_.triangles(); ++t) {
-      const auto [a, b, c] = corners(t);
-      parent[root(b)] = root(a);
-      parent[root(c)] = root(a);
+    std::vector<std::array<std::uint32_t, 3>> edges;  // lower and higher end, triangle
+    edges.reserve(3 * mesh_.triangles());
+    for (std::uint32_t t = 0; t < mesh_.triangles(); ++t) {
+      const auto ends = corners(t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = ends[i], b = ends[(i + 1) % 3];
+        edges.push_back({std::min(a, b), std::max(a, b), t});
+      }
     }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 1; i < edges.size(); ++i)
+      if (edges[i][0] == edges[i - 1][0] && edges[i][1] == edges[i - 1][1] && edges[i][0] != edges[i][1])
+        parent[root(edges[i][2])] = root(edges[i - 1][2]);
     std::vector<MeshPart> parts;
-    std::vector<std::uint32_t> part_of(mesh_.positions.size(), no_index);
-    for (std::size_t t = 0; t < mesh_.triangles(); ++t) {
-      std::uint32_t& part = part_of[root(corners(t)[0])];
+    std::vector<std::uint32_t> part_of(mesh_.triangles(), no_index);
+    for (std::uint32_t t = 0; t < mesh_.triangles(); ++t) {
+      std::uint32_t& part = part_of[root(t)];
       if (part == no_index) {
         part = static_cast<std::uint32_t>(parts.size());
         parts.emplace_back();
       }
-      parts[part].triangles.push_back(static_cast<std::uint32_t>(t));
+      parts[part].triangles.push_back(t);
     }
     if (parts.size() <= most_parts) return parts;
     parts.assign(1, {});
+    parts[0].connected = false;
     parts[0].triangles.resize(mesh_.triangles());
     std::iota(parts[0].triangles.begin(), parts[0].triangles.end(), 0u);
     return parts;

@@ -9,17 +9,22 @@
 namespace causticl {
 namespace {
 
+/// How far from the camera's origin rays may start.
+double start_of_view(const CameraSpec& camera) {
+  return camera.aperture + camera.plane_distance * (1 + 0.5 * (length(camera.right) + length(camera.up)));
+}
+
 class LitSidesFinder {
  public:
   explicit LitSidesFinder(const Scene& scene) : scene_(scene) {
-    const Vec3 lens = Vec3{1, 1, 1} * scene.camera.aperture;
+    const Vec3 lens = Vec3{1, 1, 1} * start_of_view(scene.camera);
     add_source(scene.camera.origin - lens, scene.camera.origin + lens);
     for (const auto& light : scene.lights)
       if (light.kind != DeltaLight::Kind::directional) add_source(light.position, light.position);
     for (const auto& object : scene.objects) {
       corners_.push_back(object_corners(scene, object));
       if (max_component(material(object).emission) > 0) {
-        sources_.push_back(causticl::swept_bounds(scene, object));
+        sources_.push_back({causticl::swept_bounds(scene, object), &object});
         endless_ = endless_ || object.shape == Object::Shape::plane;
       }
     }
@@ -52,14 +57,20 @@ class LitSidesFinder {
     return std::move(sides_);
   }
 
+  bool is_dark_inside(const Object& object) const {
+    return !endless_ && is_opaque(object) &&
+           holds_no_source(causticl::swept_bounds(scene_, object),
+                           material(object).two_sided ? nullptr : &object);
+  }
+
   int sides_that_may_be_lit(const Object& object) const {
     constexpr int both = front_side | back_side;
     if (has_motion(scene_) || scene_.environment || max_component(scene_.medium.scattering) > 0) return both;
     int sides = 0;
     for (const auto& light : scene_.lights)
       sides |= light.kind == DeltaLight::Kind::directional ? both : side_with(object, light.position);
-    for (const double step : {-1.0, 0.0, 1.0})  // across the lens, as if it faced the object
-      sides |= side_with(object, scene_.camera.origin + step * scene_.camera.aperture *
+    for (const double step : {-1.0, 0.0, 1.0})  // across where rays start, as if it faced the object
+      sides |= side_with(object, scene_.camera.origin + step * start_of_view(scene_.camera) *
                                                             normalize(object.transform.inverse().rows[2]));
     for (std::size_t i = 0; i < scene_.objects.size() && sides != both; ++i)
       if (&scene_.objects[i] != &object) sides |= sides_with(object, scene_.objects[i], corners_[i]);
@@ -69,8 +80,12 @@ class LitSidesFinder {
  private:
   const Scene& scene_;
   std::vector<std::vector<Vec3>> corners_;  // of each object
-  std::vector<BoundingBox> sources_;        // of light, and the lens
-  bool endless_ = false;                    // an infinite plane emits
+  struct Source {
+    BoundingBox bounds;
+    const Object* object;  // none of the lens and of lights that are no surfaces
+  };
+  std::vector<Source> sources_;  // of light, and the lens
+  bool endless_ = false;         // an infinite plane emits
   LitSides sides_;
   std::int32_t parts_ = 0;
 
@@ -82,19 +97,17 @@ class LitSidesFinder {
     BoundingBox box;
     box.add(low);
     box.add(high);
-    sources_.push_back(box);
+    sources_.push_back({box, nullptr});
   }
 
-  bool holds_no_source(const BoundingBox& bounds) const {
-    return std::none_of(sources_.begin(), sources_.end(),
-                        [&](const BoundingBox& source) { return overlap(bounds, source); });
+  /// `outward` is an object that emits outwards alone, if at all.
+  bool holds_no_source(const BoundingBox& bounds, const Object* outward = nullptr) const {
+    return std::none_of(sources_.begin(), sources_.end(), [&](const Source& source) {
+      return (!source.object || source.object != outward) && overlap(bounds, source.bounds);
+    });
   }
 
   bool is_opaque(const Object& object) const { return material(object).kind != MaterialSpec::Kind::glass; }
-
-  bool is_dark_inside(const Object& object) const {
-    return !endless_ && is_opaque(object) && holds_no_source(causticl::swept_bounds(scene_, object));
-  }
 
   std::int8_t of_flat(const Object& object) const {
     const int lit = sides_that_may_be_lit(object);
@@ -107,6 +120,7 @@ class LitSidesFinder {
     add_triangles(mesh.triangles(), 0);
     const bool may_be_dark = !endless_ && is_opaque(object);
     for (const MeshPart& part : mesh_parts(mesh)) {
+      if (!part.connected) continue;
       const bool dark =
           may_be_dark && part.closed && part.has_volume() && holds_no_source(swept_bounds(object, part));
       for (const std::uint32_t t : part.triangles) {
@@ -137,6 +151,10 @@ class LitSidesFinder {
 }  // namespace
 
 LitSides lit_sides(const Scene& scene) { return LitSidesFinder(scene).find(); }
+
+bool may_be_lit_inside(const Scene& scene, const Object& object) {
+  return !LitSidesFinder(scene).is_dark_inside(object);
+}
 
 int sides_that_may_be_lit(const Scene& scene, const Object& object) {
   return LitSidesFinder(scene).sides_that_may_be_lit(object);

@@ -19,6 +19,9 @@ struct LitSides {
 /// lens within its bounds, or on the side of something flat where there is nothing at all.
 LitSides lit_sides(const Scene& scene);
 
+/// Whether the inside of a sphere or a box may be lit, or seen.
+bool may_be_lit_inside(const Scene& scene, const Object& object);
+
 /// Of a flat object: front_side, back_side or both.
 int sides_that_may_be_lit(const Scene& scene, const Object& object);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Shape = Object::Shape;
 
-constexpr double rounding = 1e-5;  // of the size of coordinates: what touches lies on no side
+constexpr double rounding = 1e-6;  // of the size of coordinates: what touches lies on no side
 
 }  // namespace
 

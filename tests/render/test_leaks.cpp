@@ -128,3 +128,37 @@ TEST_CASE("what lies on a thin ceiling does not light the floor beneath it") {
     CHECK(*std::max_element(picture.rgb.begin(), picture.rgb.end()) == 0);
   }
 }
+
+TEST_CASE("nothing leaks out of bodies that are smaller than the search radius, or past a low wall") {
+  const auto dark_scene = [](const std::string& view, double radius, const std::string& light,
+                             const std::string& objects) {
+    Scene scene = scene_from_text(R"({"width": 24, "height": 18, "camera": )" + view +
+                                  R"(, "renderer": {"type": "sppm", "photon_sample": 5000, "radius": )" +
+                                  std::to_string(radius) + R"(}, "materials": {
+      "white": {"type": "diffuse", "color": [0.7, 0.7, 0.7]}, "black": {"type": "diffuse", "color": [0, 0, 0]}},
+      "lights": [{"type": "point", "position": )" +
+                                  light + R"(, "intensity": [10, 10, 10]}], "objects": [)" + objects + "]}");
+    scene.renderer.direct_light = DirectLight::photons;
+    return scene;
+  };
+  const std::string outside = R"({"position": [0, 0.5, 2], "target": [0, 0, 0], "fov": 30})";
+  const std::string sphere = R"({"type": "sphere", "radius": 0.3, "material": "white"})";
+  // A black plate between two floors, each 0.3 from it and not seen from the other's lamp.
+  const auto floor = [](double x) {
+    return R"({"type": "rectangle", "material": "white", "transform": [{"type": "rotate", "axis": "x", "degree": -90}, )" +
+           shift(x, 0, 0) + "]}";
+  };
+  const std::string plate = box("black", "[0.02, 9, 9]", shift(0, 0, 0));
+  const std::string beside = R"({"position": [-0.8, 0.5, 0], "target": [-0.79, 0, 0], "fov": 30})";
+  const std::vector<std::pair<std::string, Scene>> scenes{
+      {"a lamp in a sphere", dark_scene(outside, 1, "[0, 0, 0]", sphere)},
+      {"a lamp in a box",
+       dark_scene(outside, 1, "[0, 0, 0]", box("white", "[0.4, 0.4, 0.4]", shift(0, 0, 0)))},
+      {"floors at a plate",
+       dark_scene(beside, 1, "[0.8, 0.5, 0]", floor(-0.81) + "," + floor(0.81) + "," + plate)}};
+  for (const auto& [name, scene] : scenes) {
+    INFO(name);
+    const auto picture = render_with(scene, Integrator::sppm, 2).picture;
+    CHECK(*std::max_element(picture.rgb.begin(), picture.rgb.end()) == 0);
+  }
+}
