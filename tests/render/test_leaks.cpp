@@ -129,7 +129,7 @@ TEST_CASE("what lies on a thin ceiling does not light the floor beneath it") {
   }
 }
 
-TEST_CASE("nothing leaks out of bodies that are smaller than the search radius, or past a low wall") {
+TEST_CASE("nothing leaks out of bodies, or past plates, that are smaller than the search radius") {
   const auto dark_scene = [](const std::string& view, double radius, const std::string& light,
                              const std::string& objects) {
     Scene scene = scene_from_text(R"({"width": 24, "height": 18, "camera": )" + view +

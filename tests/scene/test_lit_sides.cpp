@@ -134,3 +134,21 @@ TEST_CASE("a sheet over a floor is a wall, a floor with nothing below is none") 
   CHECK_FALSE(has_walls(sheets(above), 0.05));
   CHECK_FALSE(has_walls(sheets(ball), 0.3));
 }
+
+TEST_CASE("a low wall that is much longer than the surfaces beside it is one") {
+  // A far box makes the cells larger than all of it.
+  const auto tile = [](const std::string& x) {
+    return R"({"type": "rectangle", "material": {"type": "diffuse"}, "transform": [
+      {"type": "rotate", "axis": "x", "degree": -90}, {"type": "scale", "x": 0.24, "y": 1, "z": 0.24},
+      {"type": "shift", "x": )" +
+           x + R"(, "z": 0.225}]})";
+  };
+  const Scene scene = scene_from_text(R"({"camera": {"position": [0, 1, 6], "target": [0, 0, 0], "fov": 60},
+    "objects": [)" + tile("0.12") + "," +
+                                      tile("-0.12") + R"(,
+      {"type": "rectangle", "material": {"type": "diffuse", "color": [0, 0, 0]}, "transform": [
+        {"type": "rotate", "axis": "y", "degree": 90}, {"type": "scale", "x": 1, "y": 0.04, "z": 0.9}]},
+      {"type": "box", "size": [0.1, 0.1, 0.1], "material": {"type": "diffuse"},
+        "transform": [{"type": "shift", "x": 60}]}]})");
+  CHECK(has_walls(scene, 0.05));
+}
