@@ -159,8 +159,10 @@ bool parts_others(const NormalBins& bins, const WallPrimitive& wall,
       const auto polygon = is_within(*other, region) ? other->corners : clipped(other->corners, region);
       if (!other->corners.empty() && polygon.empty()) continue;
       const bool itself = other == &wall;
-      // The inside of a sphere and the outside.
-      if (itself && wall.wall.origin.w == WALL_SPHERE && wall.lit_side == 0) return true;
+      // The inside of a sphere has the normals of the outside across it.
+      if (itself && wall.wall.origin.w == WALL_SPHERE && wall.lit_side == 0 &&
+          2 * wall.wall.normal.w <= reach.path)
+        return true;
       // What stands for others tells no more than that these are near it.
       const bool stands_for_others = other->part >= 0 && !own && size_of(*other) <= reach.tiny;
       const double tolerance = stands_for_others ? -std::sqrt(3.0) * reach.tiny : reach.tolerance;

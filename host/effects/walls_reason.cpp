@@ -46,9 +46,7 @@ class WallsFinder {
     const bool moves = has_motion(scene_);
     // On which sides of a flat wall there is something that holds photons, and what of it is near.
     int found = 0, near = 0;
-    const bool several =
-        wall.shape == Shape::mesh || wall.shape == Shape::bezier ||
-        ((wall.shape == Shape::sphere || wall.shape == Shape::box) && may_be_lit_inside(scene_, wall));
+    const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier || may_part_itself(index);
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& other = scene_.objects[i];
       if (!stores_photons(material_of(scene_, other)) || (is_flat(wall) && i == index)) continue;
@@ -69,12 +67,25 @@ class WallsFinder {
   const Scene& scene_;
   std::vector<std::vector<Vec3>> corners_;  // of each object
 
+  /// Radii of photons, where the scene states them; else 0.
+  double stated_reach() const {
+    return 1.4 * scene_.renderer.radius.value_or(0) * std::max(1.0, indirect_radius(scene_.renderer));
+  }
+
+  /// Whether a sphere or box has its inside lit, and a search radius may take in both of its ends.
+  bool may_part_itself(std::size_t index) const {
+    const Object& object = scene_.objects[index];
+    if (object.shape != Shape::sphere && object.shape != Shape::box) return false;
+    const Vec3 size = box_of(corners_[index]).high - box_of(corners_[index]).low;
+    const bool fits = !scene_.renderer.radius || std::min({size.x, size.y, size.z}) <= stated_reach();
+    return fits && may_be_lit_inside(scene_, object);
+  }
+
   /// Whether a search radius may take in something of both: if the gap between them is a quarter of the
   /// larger at most. Of two infinite planes nothing is known.
   bool are_near(std::size_t first, std::size_t second) const {
     constexpr double near = 0.25;
-    const RendererSpec& renderer = scene_.renderer;
-    const double stated = 1.4 * renderer.radius.value_or(0) * std::max(1.0, indirect_radius(renderer));
+    const double stated = stated_reach();
     if (scene_.objects[first].shape == Shape::plane) std::swap(first, second);
     if (scene_.objects[first].shape == Shape::plane) return true;
     const Box a = box_of(corners_[first]);
