@@ -61,9 +61,10 @@ void PartingWalls::choose_representatives() {
     const Vec3 n{primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
     std::uint64_t key = static_cast<std::uint64_t>(NormalBins::number(n));
     for (int axis = 0; axis < 3; ++axis) key = key << 16 | static_cast<std::uint64_t>(place[axis]);
-    const auto likeness = static_cast<std::uint64_t>(
-        (primitive.blocks ? 1 : 0) + (primitive.receives ? 2 : 0) + 4 * (primitive.lit_side + 1));
-    representative_[i] = first.try_emplace({primitive.part, key << 4 | likeness}, i).first->second;
+    const int likeness =
+        (primitive.blocks ? 1 : 0) + (primitive.receives ? 2 : 0) + 4 * (primitive.lit_side + 1);
+    representative_[i] =
+        first.try_emplace({primitive.part, key << 4 | static_cast<std::uint64_t>(likeness)}, i).first->second;
   }
 }
 

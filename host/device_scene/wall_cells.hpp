@@ -63,8 +63,8 @@ class WallCells {
     }
     for (int k = first[2]; k <= last[2]; ++k)
       for (int j = first[1]; j <= last[1]; ++j) {
-        auto index = static_cast<std::size_t>((k * cells_[1] + j) * cells_[0] + first[0]);
-        for (int i = first[0]; i <= last[0]; ++i, ++index) found(index, i, j, k);
+        int index = (k * cells_[1] + j) * cells_[0] + first[0];
+        for (int i = first[0]; i <= last[0]; ++i, ++index) found(static_cast<std::size_t>(index), i, j, k);
       }
   }
 };

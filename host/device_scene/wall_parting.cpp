@@ -130,7 +130,7 @@ int NormalBins::number(Vec3 n) {
   for (int k = 1; k < 3; ++k)
     if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
   const auto place = [&](int k) {
-    return std::clamp(static_cast<int>((n[k] / std::fabs(n[axis]) + 1) * (across / 2)), 0, across - 1);
+    return std::clamp(static_cast<int>((n[k] / std::fabs(n[axis]) + 1) * 0.5 * across), 0, across - 1);
   };
   const int face = 2 * axis + (n[axis] < 0 ? 1 : 0);
   return (face * across + place((axis + 1) % 3)) * across + place((axis + 2) % 3);

@@ -109,7 +109,7 @@ class LitSidesFinder {
 
   bool is_opaque(const Object& object) const { return material(object).kind != MaterialSpec::Kind::glass; }
 
-  std::int8_t of_flat(const Object& object) const {
+  int of_flat(const Object& object) const {
     const int lit = sides_that_may_be_lit(object);
     return lit == front_side ? 1 : lit == back_side ? -1 : 0;
   }
@@ -131,7 +131,7 @@ class LitSidesFinder {
     }
   }
 
-  void add_triangles(std::size_t count, std::int8_t side) {
+  void add_triangles(std::size_t count, int side) {
     sides_.triangles.insert(sides_.triangles.end(), count, side);
     sides_.parts.insert(sides_.parts.end(), count, -1);
   }

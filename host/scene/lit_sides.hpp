@@ -11,7 +11,7 @@ namespace causticl {
 /// For each triangle and each shape, in the order of flatten_scene(): 1 where only the side of its normal may
 /// be lit or seen, of a sphere the outer one, -1 where only the other may be, else 0. Revolved curves have 0.
 struct LitSides {
-  std::vector<std::int8_t> triangles, shapes;
+  std::vector<int> triangles, shapes;
   std::vector<std::int32_t> parts;  // of each triangle: the connected part of a mesh, by number; -1 of others
 };
 

@@ -58,7 +58,7 @@ TEST_CASE("the inner sides of what is closed and opaque are dark") {
                             const std::string& more = "") {
     return lit_sides(mesh_scene(folder, mesh, material, more)).triangles;
   };
-  using Sides = std::vector<std::int8_t>;
+  using Sides = std::vector<int>;
   CHECK(sides_of(tetrahedron, "diffuse") == Sides{1, 1, 1, 1});
   CHECK(sides_of(inwards, "diffuse") == Sides{-1, -1, -1, -1});
   CHECK(sides_of(tetrahedron, "glass") == Sides{0, 0, 0, 0});
@@ -125,7 +125,7 @@ TEST_CASE("a sheet over a floor is a wall, a floor with nothing below is none") 
       R"(, {"type": "rectangle", "material": "grey", "transform": [{"type": "shift", "z": 0.1}]})";
   const std::string ball = R"(, {"type": "sphere", "radius": 0.2, "material": "grey",
     "transform": [{"type": "shift", "z": 0.2}]})";
-  using Sides = std::vector<std::int8_t>;
+  using Sides = std::vector<int>;
   CHECK(lit_sides(sheets("")).triangles == Sides{1, 1});
   CHECK(lit_sides(sheets(above)).triangles == Sides{1, 1, 0, 0});
   CHECK(lit_sides(sheets(ball)).triangles == Sides{1, 1});
