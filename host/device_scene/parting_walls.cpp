@@ -54,12 +54,10 @@ void PartingWalls::choose_representatives() {
   for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
     representative_[i] = i;
     const WallPrimitive& primitive = primitives_[i];
-    if (primitive.corners.empty() || !(max_component(primitive.high - primitive.low) <= cube_ratio * radius_))
-      continue;
+    if (primitive.corners.empty() || !(size_of(primitive) <= cube_ratio * radius_)) continue;
     const Vec3 place = (primitive.low - cells_.low()) / (cube_ratio * radius_);
     if (!(max_component(place) < most_cubes)) continue;
-    const Vec3 n{primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
-    std::uint64_t key = static_cast<std::uint64_t>(NormalBins::number(n));
+    std::uint64_t key = static_cast<std::uint64_t>(NormalBins::number(normal_of(primitive)));
     for (int axis = 0; axis < 3; ++axis) key = key << 16 | static_cast<std::uint64_t>(place[axis]);
     const int likeness =
         (primitive.blocks ? 1 : 0) + (primitive.receives ? 2 : 0) + 4 * (primitive.lit_side + 1);
@@ -68,9 +66,7 @@ void PartingWalls::choose_representatives() {
   }
 }
 
-bool PartingWalls::is_small(std::uint32_t i) const {
-  return max_component(primitives_[i].high - primitives_[i].low) < 2 * cells_.edge();
-}
+bool PartingWalls::is_small(std::uint32_t i) const { return size_of(primitives_[i]) < 2 * cells_.edge(); }
 
 bool PartingWalls::parts(std::uint32_t i) {
   i = representative_[i];

@@ -6,12 +6,6 @@
 namespace causticl {
 namespace {
 
-Vec3 normal_of(const WallPrimitive& primitive) {
-  return {primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
-}
-
-double size_of(const WallPrimitive& primitive) { return max_component(primitive.high - primitive.low); }
-
 /// From a point to the convex polygon of that normal.
 double distance_to(const std::vector<Vec3>& polygon, Vec3 normal, Vec3 point) {
   bool above = true;  // the polygon, whichever way it is wound

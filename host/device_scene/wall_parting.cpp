@@ -30,12 +30,6 @@ double radius_of(int bin) {
   return std::acos(cosine);
 }
 
-Vec3 normal_of(const WallPrimitive& primitive) {
-  return {primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
-}
-
-double size_of(const WallPrimitive& primitive) { return max_component(primitive.high - primitive.low); }
-
 /// A side of a surface that may be lit.
 struct LitSide {
   bool curved = false;  // has all normals

@@ -25,6 +25,16 @@ struct WallPrimitive {
   std::int32_t part = -1;     // as of LitSides
 };
 
+/// The normal of a flat primitive, of unit length.
+inline Vec3 normal_of(const WallPrimitive& primitive) {
+  return {primitive.wall.normal.x, primitive.wall.normal.y, primitive.wall.normal.z};
+}
+
+/// The longest edge of the bounds; infinite of a plane.
+inline double size_of(const WallPrimitive& primitive) {
+  return max_component(primitive.high - primitive.low);
+}
+
 /// All surfaces but the infinitesimal ones. Revolved curves become triangles, two triangles one after the
 /// other that are the halves of a parallelogram become that; glass parts nothing.
 std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& world, const LitSides& sides,

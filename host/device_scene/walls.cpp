@@ -64,7 +64,7 @@ class WallGridBuilder {
   void look_around() {
     near_.resize(cells_.count());
     for (const auto& primitive : primitives_) {
-      const bool dense = primitive.part >= 0 && max_component(primitive.high - primitive.low) <= dense_;
+      const bool dense = primitive.part >= 0 && size_of(primitive) <= dense_;
       // The inside of a sphere and the outside may be all there is.
       const bool has_two_sides = primitive.wall.origin.w == WALL_SPHERE && primitive.lit_side == 0;
       cells_.visit(

@@ -82,7 +82,7 @@ class WallsFinder {
   }
 
   /// Whether a search radius may take in something of both: if the gap between them is a quarter of the
-  /// larger at most. Of two infinite planes nothing is known.
+  /// larger at most, or within the radius that the scene states. Of two infinite planes nothing is known.
   bool are_near(std::size_t first, std::size_t second) const {
     constexpr double near = 0.25;
     const double stated = stated_reach();
