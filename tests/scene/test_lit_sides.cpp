@@ -84,6 +84,23 @@ TEST_CASE("the inner sides of what is closed and opaque are dark") {
   CHECK(std::count(boxed.begin(), boxed.end(), 1) == 16);
 }
 
+TEST_CASE("parts of a mesh are joined by edges; of too many none is told") {
+  const TemporaryFolder folder;
+  // A tetrahedron, and one that is wound inwards and shares its last corner.
+  const LitSides two = lit_sides(mesh_scene(
+      folder, tetrahedron + "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 5 7 6\nf 5 6 4\nf 5 4 7\nf 6 7 4\n", "diffuse"));
+  CHECK(two.parts == std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 1});
+  CHECK(two.triangles == std::vector<int>{1, 1, 1, 1, -1, -1, -1, -1});
+  std::string soup;
+  constexpr int most = 4096;
+  for (int i = 0; i <= most; ++i) {
+    const std::string x = std::to_string(2 * i);
+    soup += "v " + x + " 0 0\nv " + x + ".5 0 0\nv " + x + " 0.5 0\nf -3 -2 -1\n";
+  }
+  const LitSides many = lit_sides(mesh_scene(folder, soup, "diffuse"));
+  CHECK(many.parts == std::vector<std::int32_t>(most + 1, -1));
+}
+
 TEST_CASE("dense sheets are walls of each other, not of themselves") {
   const TemporaryFolder folder;
   constexpr int cells = 40;  // smaller than a quarter of the radius
