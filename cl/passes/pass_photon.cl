@@ -53,7 +53,7 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide 
     }
   }
   const real3 scale = channel_scale(params.channel_shifts);
-#if VECTORISED(EFFECTS_NOT_BATCHED_IN_EMISSION)
+#if VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EMISSION))
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = alive; i < alive + count; ++i) {
@@ -107,7 +107,7 @@ OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *batch, v
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
 #elif defined(STREAM_BATCHED)
-  if (!HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER)) return;
+  if (!HAS(EFFECTS_IN_LEAVES)) return;
   uint diagnostics[STREAM_CAPACITY];
   kdtree_stream(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, diagnostics);
   for (uint i = 0; i < count; ++i) count_diagnostics(diagnostics[i], counters);
@@ -129,7 +129,7 @@ OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint coun
                           volatile global Counters *counters) {
   const Scene scene = *from;
   const Params params = *settings;
-#if VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS)
+#if VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {

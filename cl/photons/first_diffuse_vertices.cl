@@ -8,12 +8,8 @@
 #include "traversal/brute_force.cl"
 #include "traversal/triangle_packet.cl"
 
-// Effects that ask for loops, or for arithmetic of whole vectors, on the way, or for more than a first diffuse vertex keeps. Lobes that
-// no diffuse surface has do not matter.
-#define EFFECTS_NOT_BATCHED_IN_DIFFUSE_VERTICES                                                                                        \
-  (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_PLASTIC |             \
-   EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_NESTED | OUTPUT_LIGHT_PASSES)
-#define DIFFUSE_VERTICES_BATCHED VECTORISED(EFFECTS_NOT_BATCHED_IN_DIFFUSE_VERTICES)
+// Light passes ask for more than a first diffuse vertex keeps.
+#define DIFFUSE_VERTICES_BATCHED VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_DIFFUSE_VERTICES) | OUTPUT_LIGHT_PASSES)
 
 #if DIFFUSE_VERTICES_BATCHED && defined(STREAM_BRUTE_FORCE)
 #define SHADOWS_BY_BRUTE_FORCE

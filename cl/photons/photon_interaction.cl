@@ -60,7 +60,7 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
 // Puts the adjoint of what camera paths do in place of *next where the shading normal is not the geometric one.
 INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random, BsdfSample *next) {
   bool bent = has_bent_normal(surface);
-  if (VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS)) {
+  if (VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))) {
     BsdfSample adjoint = adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
     next->direction = choose3(bent, adjoint.direction, next->direction);
     next->weight = choose3(bent, adjoint.weight, next->weight);
@@ -123,12 +123,12 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
     events |= counted ? EVENT_DEPOSITED_ELSEWHERE : stored;
   }
   bool alive = !(diffuse && black) && bounce + 1 != params->max_depth;
-  if (!VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) && !alive) return events;
+  if (!VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) && !alive) return events;
 
   if (plastic) plastic_choose(&bsdf, direction, n, random.z);
   photon->prefix = prefix_after(photon->prefix, bsdf_is_specular(&bsdf));
   photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
-  BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
+  BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
   if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
   if (far && bsdf.kind == MATERIAL_DIFFUSE)
@@ -140,7 +140,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;
-  if (!VECTORISED(EFFECTS_NOT_BATCHED_IN_EVENTS) && !alive) return events;
+  if (!VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) && !alive) return events;
   if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
   if (nested(scene)) {

@@ -11,14 +11,6 @@
 #define PHOTONS_AN_ITEM 4u
 #define PATH_REGENERATION 16u
 
-// Effects with which the loop over a step is not vectorised: those that ask for loops, or for arithmetic of whole vectors,
-// on the way. Then branches spare work, which selections would do for nothing.
-#define EFFECTS_NOT_BATCHED_IN_EVENTS                                                                                        \
-  (EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER | EFFECT_TEXTURES | EFFECT_ROUGH | EFFECT_CONDUCTOR |        \
-   EFFECT_PLASTIC | EFFECT_ABSORPTION | EFFECT_DISPERSION | EFFECT_MEDIUM | EFFECT_NESTED)
-#define EFFECTS_NOT_BATCHED_IN_EMISSION                                                                                      \
-  (EFFECT_BEZIER | EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS | EFFECT_ABSORPTION | EFFECT_MEDIUM | EFFECT_NESTED)
-
 // Whether the rays of a batch meet all primitives in place of walking the tree each: the host asks for it where they are
 // few.
 #if defined(BRUTE_FORCE) && STREAM_CAPACITY > 1u

@@ -35,7 +35,7 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
 
 // Position, normals, uv and material at a hit that shape_closest found on the same ray.
 INLINE void shape_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
-  uint type = HAS(EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER) ? shape->type : SHAPE_SPHERE;
+  uint type = HAS(EFFECTS_OF_SHAPES & ~EFFECT_SPHERES) ? shape->type : SHAPE_SPHERE;
   if (HAS(EFFECT_SPHERES) && type == SHAPE_SPHERE) sphere_surface(shape, ray, hit, surface);
   if (HAS(EFFECT_PLANES) && type == SHAPE_PLANE) plane_surface(shape, ray, hit, surface);
   if (HAS(EFFECT_DISKS) && type == SHAPE_DISK) disk_surface(shape, ray, hit, surface);

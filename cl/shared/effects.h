@@ -1,46 +1,94 @@
-// The effects that a scene can call for: one bit each, seen by the host's analysis and by the kernels.
-// EFFECTS is prepended to every program as one #define; kernels ask `if (HAS(EFFECT_GLASS))`, never #if, so
-// that every branch is type-checked in every build and the compiler removes what no scene object needs.
+// The effects that a scene can call for: one table that the host and the kernels read.
+//
+// The host prepends EFFECTS, the bits to compile for, to every program as one #define. Kernels ask
+// `if (HAS(EFFECT_GLASS))`, never #if, so that every branch is type-checked in every build and the compiler removes what
+// the scene does not need.
 #pragma once
 
-#define EFFECT_TRIANGLES (1u << 0)   // meshes, rectangles, boxes
-#define EFFECT_SPHERES (1u << 1)
-#define EFFECT_PLANES (1u << 2)
-#define EFFECT_DISKS (1u << 3)
-#define EFFECT_BEZIER (1u << 4)      // revolved Bezier curves
-#define EFFECT_TEXTURES (1u << 5)
-#define EFFECT_MIRROR (1u << 6)
-#define EFFECT_GLASS (1u << 7)
-#define EFFECT_LENS (1u << 8)        // a lens of non-zero radius
-#define EFFECT_SHADOW_RAYS (1u << 9) // direct light by shadow rays
+// Programs whose kernels ask for an effect with HAS(); the other programs are compiled without it, and are the same
+// for every scene.
+#define IN_PHOTON 1u
+#define IN_CAMERA 2u
+#define IN_GATHER 4u
+#define IN_PATH 8u
+#define IN_PATHS (IN_PHOTON | IN_CAMERA | IN_PATH)  // wherever a ray is traced
 
-#define EFFECT_ROUGH (1u << 10)      // glass, conductors or coated diffuse with roughness
-#define EFFECT_CONDUCTOR (1u << 11)
-#define EFFECT_PLASTIC (1u << 12)
+// Batched steps that cannot hold an effect, because it needs loops or arithmetic of whole vectors on the way. With such
+// an effect the step runs photon by photon, or path by path: then branches save work that a batch would do for nothing.
+#define BATCHED 0u
+#define SCALAR_EMISSION 1u          // photons leave their emitter
+#define SCALAR_EVENTS 2u            // photons meet a surface
+#define SCALAR_DIFFUSE_VERTICES 4u  // camera paths come to a diffuse surface
+#define SCALAR_HITS 8u              // rays meet every primitive of a small scene: brute_force.cl
+#define SCALAR_PATHS (SCALAR_EVENTS | SCALAR_DIFFUSE_VERTICES)
+#define SCALAR_LIGHTS (SCALAR_EMISSION | SCALAR_DIFFUSE_VERTICES)
+#define SCALAR_ALL (SCALAR_PATHS | SCALAR_EMISSION)
 
-#define EFFECT_ENVIRONMENT (1u << 13)   // light from beyond the scene
-#define EFFECT_DELTA_LIGHTS (1u << 14)  // point, spot and directional lights
+// Where the primitives are that an effect stands for.
+#define NO_GEOMETRY 0u
+#define TRIANGLE_LEAVES 1u  // among the triangles of a leaf of the tree
+#define SHAPE_LEAVES 2u     // among the shapes of a leaf
+#define UNBOUNDED 4u        // beside the tree
 
-#define EFFECT_ABSORPTION (1u << 15) // glass that absorbs
-#define EFFECT_DISPERSION (1u << 16) // glass whose index depends on the wavelength
-#define EFFECT_MOTION (1u << 17)     // objects that move while the shutter is open
-#define EFFECT_MEDIUM (1u << 18)     // a medium that fills the scene
+// Columns: EFFECT_name is its bit; the number of that bit; the key, as --effects takes it and `explain` prints it; the
+// programs that read it; the steps that cannot be batched with it; where its primitives are; its name in text.
+// What in a scene calls for an effect: the function of its name in host/effects/effect_reasons.cpp.
+// `ROW(argument, ...)` is made of each row.
+#define EFFECT_TABLE(ROW, x) \
+  ROW(x, TRIANGLES,      0,  "triangles",      IN_PATHS,              BATCHED,                  TRIANGLE_LEAVES, "triangles") \
+  ROW(x, SPHERES,        1,  "spheres",        IN_PATHS,              BATCHED,                  SHAPE_LEAVES,    "spheres") \
+  ROW(x, PLANES,         2,  "planes",         IN_PATHS,              SCALAR_PATHS,             UNBOUNDED,       "infinite planes") \
+  ROW(x, DISKS,          3,  "disks",          IN_PATHS,              SCALAR_PATHS,             SHAPE_LEAVES,    "disks") \
+  ROW(x, BEZIER,         4,  "curves",         IN_PATHS,              SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES,    "revolved curves") \
+  ROW(x, TEXTURES,       5,  "textures",       IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "textures") \
+  ROW(x, MIRROR,         6,  "mirror",         IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "mirrors") \
+  ROW(x, GLASS,          7,  "glass",          IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "glass") \
+  ROW(x, LENS,           8,  "lens",           IN_CAMERA | IN_PATH,   BATCHED,                  NO_GEOMETRY,     "depth of field") \
+  ROW(x, SHADOW_RAYS,    9,  "shadow_rays",    IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "direct light by shadow rays") \
+  ROW(x, ROUGH,          10, "rough",          IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "rough lobes") \
+  ROW(x, CONDUCTOR,      11, "conductor",      IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "conductors") \
+  ROW(x, PLASTIC,        12, "plastic",        IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "plastic") \
+  ROW(x, ENVIRONMENT,    13, "environment",    IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "light from beyond the scene") \
+  ROW(x, DELTA_LIGHTS,   14, "delta_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "point, spot and directional lights") \
+  ROW(x, ABSORPTION,     15, "absorption",     IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "absorption in glass") \
+  ROW(x, DISPERSION,     16, "dispersion",     IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "dispersion") \
+  ROW(x, MOTION,         17, "motion",         0u,                    BATCHED,                  NO_GEOMETRY,     "motion blur") \
+  ROW(x, MEDIUM,         18, "medium",         IN_PATHS | IN_GATHER,  SCALAR_ALL,               NO_GEOMETRY,     "medium") \
+  ROW(x, GUIDED_PHOTONS, 19, "guided_photons", IN_PHOTON,             BATCHED,                  NO_GEOMETRY,     "photons guided to what the camera sees") \
+  ROW(x, AIMED_PHOTONS,  20, "aimed_photons",  IN_PHOTON,             BATCHED,                  NO_GEOMETRY,     "photons aimed at what focuses them") \
+  ROW(x, SMOOTH,         21, "smooth",         IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "shading normals") \
+  ROW(x, SLIVERS,        22, "needles",        IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "thin triangles") \
+  ROW(x, NESTED,         23, "nested",         IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "dielectrics that touch or hold something") \
+  ROW(x, WALLS,          24, "walls",          IN_CAMERA | IN_GATHER, BATCHED,                  NO_GEOMETRY,     "walls between photons and visible points") \
+  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "light from beyond the scene on infinite planes")
 
-#define EFFECT_GUIDED_PHOTONS (1u << 19) // photons guided to what the camera sees
+#ifdef __cplusplus
+enum EffectBit : unsigned {
+#else
+enum EffectBit {
+#endif
+#define EFFECT_BIT(argument, name, bit, key, programs, scalar, geometry, text) EFFECT_##name = 1u << bit,
+  EFFECT_TABLE(EFFECT_BIT, )
+#undef EFFECT_BIT
+};
 
-#define EFFECT_AIMED_PHOTONS (1u << 20)  // photons aimed at what focuses them
+// Sets of effects. Constants of the preprocessor, since #if decides whether a batched step is compiled.
+#define EFFECT_IF_ANY(argument, name, bit, key, programs, scalar, geometry, text) | (1u << bit)
+#define EFFECT_IF_READ(wanted, name, bit, key, programs, scalar, geometry, text) \
+  | (((programs) & (wanted)) ? 1u << bit : 0u)
+#define EFFECT_IF_SCALAR(wanted, name, bit, key, programs, scalar, geometry, text) \
+  | (((scalar) & (wanted)) ? 1u << bit : 0u)
+#define EFFECT_IF_GEOMETRY(wanted, name, bit, key, programs, scalar, geometry, text) \
+  | (((geometry) & (wanted)) ? 1u << bit : 0u)
 
-#define EFFECT_SMOOTH (1u << 21)   // triangles with shading normals
-#define EFFECT_SLIVERS (1u << 22)  // triangles too thin for the cross product of their edges
+#define EFFECT_ALL (0u EFFECT_TABLE(EFFECT_IF_ANY, ))
+#define EFFECTS_READ(programs) (0u EFFECT_TABLE(EFFECT_IF_READ, programs))
+#define EFFECTS_NOT_BATCHED(steps) (0u EFFECT_TABLE(EFFECT_IF_SCALAR, steps))
+#define EFFECTS_IN_SHAPE_LEAVES (0u EFFECT_TABLE(EFFECT_IF_GEOMETRY, SHAPE_LEAVES))
+#define EFFECTS_IN_LEAVES (0u EFFECT_TABLE(EFFECT_IF_GEOMETRY, SHAPE_LEAVES | TRIANGLE_LEAVES))
+#define EFFECTS_OF_SHAPES (0u EFFECT_TABLE(EFFECT_IF_GEOMETRY, SHAPE_LEAVES | UNBOUNDED))
 
-#define EFFECT_NESTED (1u << 23)   // dielectrics that touch, overlap, or hold the camera or emitters
-#define EFFECT_WALLS (1u << 24)    // surfaces that may part photons from visible points
-
-#define EFFECT_HORIZON (1u << 25)  // light from beyond the scene on infinite planes
-
-#define EFFECT_ALL ((1u << 26) - 1u)
-
-// Compiled in like an effect, but asked for by the user and by no scene.
-#define OUTPUT_LIGHT_PASSES (1u << 31)  // the layers of light_passes.cl beside the picture
+// Compiled in like an effect, but asked for by the user and by no scene: the layers of light_passes.cl beside the picture.
+#define OUTPUT_LIGHT_PASSES (1u << 31)
 
 #define HAS(effect) ((EFFECTS & (effect)) != 0u)

@@ -96,6 +96,10 @@ INLINE void incoherent_disk(global const Shape *shape, uint index, const Incoher
               hits);
 }
 
+// Effects of shapes that it meets. A shape that is in leaves and that this file does not know has SCALAR_HITS in its row.
+#define BRUTE_FORCE_SHAPES (EFFECTS_IN_SHAPE_LEAVES & ~EFFECTS_NOT_BATCHED(SCALAR_HITS))
+typedef char brute_force_knows_its_shapes[BRUTE_FORCE_SHAPES == (EFFECT_SPHERES | EFFECT_DISKS) ? 1 : -1];
+
 // Takes what the tree holds into the hits, each primitive once: cells may share some. `first_shape` is the least index
 // that one of its shapes may have. The nodes of a tree lie in one piece, a node before its children.
 INLINE void intersect_all(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
@@ -113,7 +117,7 @@ INLINE void intersect_all(global const KdNode *nodes, global const TriangleBlock
       for (; block < end; block += BLOCK_STRIDE) {
         for (uint lane = 0; lane < 8u && blocks[block].primitive[lane] != BLOCK_EMPTY; ++lane) {
           uint primitive = blocks[block].primitive[lane];
-          if (HAS(EFFECT_SPHERES | EFFECT_DISKS) && (primitive & BLOCK_SHAPE)) {
+          if (HAS(BRUTE_FORCE_SHAPES) && (primitive & BLOCK_SHAPE)) {
             uint shape = primitive & ~BLOCK_SHAPE;
             ulong bit = 1ul << (shape - first_shape);
             if (shapes_met & bit) continue;

@@ -30,7 +30,7 @@ INLINE bool planes_closest(const Geometry *g, Ray ray, Hit *hit) {
 // Takes the nearest hit with 0 < t < hit->t into `hit`. False, and `hit` as it was, if there is none.
 INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
   bool found = planes_closest(g, ray, hit);
-  if (HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER))
+  if (HAS(EFFECTS_IN_LEAVES))
     found |= kdtree_closest(g->nodes, g->blocks, g->shapes, g->curves, ray, hit);
   return found;
 }
@@ -40,7 +40,7 @@ INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *diag
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i)
       if (shape_occluded(g->shapes + i, g->curves, ray, t_max, diagnostics)) return true;
-  return HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) &&
+  return HAS(EFFECTS_IN_LEAVES) &&
          kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max, diagnostics);
 }
 

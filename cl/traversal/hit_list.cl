@@ -55,7 +55,7 @@ INLINE void leaf_hits(const Geometry *g, uint child, uint count, Ray ray, Triang
         hit_list_add(list, filter, g->attributes[primitive].material & ~TRIANGLE_SMOOTH, primitive, hit);
       }
     }
-    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES))
+    if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES))
       for (uint did_hit = block_shapes(g->blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u)
         shape_hits(g, g->blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE, ray, t_max, filter, list);
   }
@@ -69,7 +69,7 @@ OUTLINE void geometry_hits(const Geometry *g, Ray ray, real t_max, const HitFilt
   if (HAS(EFFECT_PLANES))
     for (uint i = 0; i < g->plane_count; ++i) shape_hits(g, i, ray, t_max, filter, list);
   global const KdNode *nodes = g->nodes;
-  if (!HAS(EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) || nodes->child[0] == 0) return;
+  if (!HAS(EFFECTS_IN_LEAVES) || nodes->child[0] == 0) return;
   TriangleRay triangle = triangle_ray(ray);
   SlabRay slab = slab_ray(ray, nodes);
   uint index = 0;

@@ -134,7 +134,7 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, triangle, hit);
-    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
+    if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES)) {
       for (uint did_hit = block_shapes(blocks + i, slab, hit->t); did_hit != 0; did_hit &= did_hit - 1u) {
         uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
         found |= shape_closest(shapes + index, index, curves, ray, hit);
@@ -151,7 +151,7 @@ INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     real8 t, weight_1, weight_2;
     if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, triangle, t_max, &t, &weight_1, &weight_2)) return true;
-    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
+    if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES)) {
       for (uint did_hit = block_shapes(blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u) {
         uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
         if (shape_occluded(shapes + index, curves, ray, t_max, diagnostics)) return true;

@@ -138,7 +138,7 @@ INLINE bool packet_leaf(global const TriangleBlock *blocks, uint child, uint cou
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     for (uint left = packet_candidates(blocks + i, triangle); left != 0; left &= left - 1u)
       changed |= packet_intersect(blocks, i, lowest_bit(left), triangle, hits);
-    if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (child & KD_SHAPES)) {
+    if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES)) {
       int8 primitive = as_int8(*(global const uint8 *)blocks[i].primitive);
       for (uint left = lane_bits((primitive < 0) & (primitive != -1)); left != 0; left &= left - 1u) {
         int16 near = packet_hits_box(blocks[i].position[0][0] + lowest_bit(left), b, s, hits->t);

@@ -221,7 +221,7 @@ OUTLINE void kdtree_stream(global const KdNode *nodes, global const TriangleBloc
     }
     for (uint k = 0; k < leaf_count; ++k) {
       uint i = at_leaf[k], found;
-      if (HAS(EFFECT_SPHERES | EFFECT_DISKS | EFFECT_BEZIER) && (traverse_child(nodes, &traverse, i) & KD_SHAPES))
+      if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (traverse_child(nodes, &traverse, i) & KD_SHAPES))
         found = traverse_shapes(nodes, blocks, shapes, curves, &rays, &traverse, i);
       else
         found = HAS(EFFECT_TRIANGLES) ? traverse_triangles(nodes, blocks, &traverse, i) : 0;

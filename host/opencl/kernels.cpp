@@ -12,23 +12,14 @@
 namespace causticl {
 namespace {
 
-constexpr unsigned geometry_effects = EFFECT_TRIANGLES | EFFECT_SMOOTH | EFFECT_SLIVERS | EFFECT_SPHERES |
-                                      EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER;
-constexpr unsigned shading_effects = EFFECT_TEXTURES | EFFECT_MIRROR | EFFECT_GLASS | EFFECT_ROUGH |
-                                     EFFECT_CONDUCTOR | EFFECT_PLASTIC | EFFECT_ABSORPTION |
-                                     EFFECT_DISPERSION | EFFECT_MEDIUM | EFFECT_NESTED;
-constexpr unsigned light_effects = EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHTS;
-
 /// What the kernels of each pass ask for with HAS().
 const std::map<std::string, unsigned> effects_read{
-    {"camera", geometry_effects | shading_effects | light_effects | EFFECT_LENS | EFFECT_SHADOW_RAYS |
-                   EFFECT_WALLS | EFFECT_HORIZON | OUTPUT_LIGHT_PASSES},
-    {"photon", geometry_effects | shading_effects | light_effects | EFFECT_SHADOW_RAYS |
-                   EFFECT_GUIDED_PHOTONS | EFFECT_AIMED_PHOTONS | EFFECT_HORIZON | OUTPUT_LIGHT_PASSES},
+    {"photon", EFFECTS_READ(IN_PHOTON) | OUTPUT_LIGHT_PASSES},
+    {"camera", EFFECTS_READ(IN_CAMERA) | OUTPUT_LIGHT_PASSES},
     {"grid", 0},
-    {"gather", EFFECT_MEDIUM | EFFECT_WALLS | OUTPUT_LIGHT_PASSES},
+    {"gather", EFFECTS_READ(IN_GATHER) | OUTPUT_LIGHT_PASSES},
     {"film", 0},
-    {"path", geometry_effects | shading_effects | light_effects | EFFECT_LENS | OUTPUT_LIGHT_PASSES},
+    {"path", EFFECTS_READ(IN_PATH) | OUTPUT_LIGHT_PASSES},
 };
 
 void dump(const std::string& folder, const std::string& pass, const std::string& source) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "effects/shape_effect.hpp"
 #include "shared/types.h"
 #include "world/flat_scene.hpp"
 
@@ -10,9 +11,10 @@ namespace causticl {
 bool brute_force_chosen(PhotonRays wanted, const Scene& scene, const Device& device,
                         const KernelOptions& options) {
   static_assert(BRUTE_FORCE_PRIMITIVES <= 64, "brute_force.cl has a bit for each");
-  const bool curves = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                  [](const Object& object) { return object.shape == Object::Shape::bezier; });
-  const bool possible = !curves && bounded_primitives(scene) <= BRUTE_FORCE_PRIMITIVES &&
+  const bool batched = std::none_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+    return (effect_of(object.shape) & EFFECTS_NOT_BATCHED(SCALAR_HITS)) != 0;
+  });
+  const bool possible = batched && bounded_primitives(scene) <= BRUTE_FORCE_PRIMITIVES &&
                         options.precision == Precision::float32 &&
                         options.triangle_test == TriangleTest::watertight && device.has_serial_work_items();
   // A GPU's items are not helped by vectors within each.

@@ -1,0 +1,234 @@
+#include "effects/effect_reasons.hpp"
+
+#include <algorithm>
+
+#include "effects/shape_effect.hpp"
+#include "effects/walls_reason.hpp"
+#include "scene/dielectrics.hpp"
+#include "scene/object_triangles.hpp"
+
+namespace causticl {
+namespace {
+
+using Shape = Object::Shape;
+using Kind = MaterialSpec::Kind;
+
+/// Names what calls for an effect: the first object that `wanted` accepts, by `describe`, and how many more.
+template <typename Predicate, typename Describe>
+std::string first_object(const Scene& scene, const Predicate& wanted, const Describe& describe) {
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), wanted);
+  if (found == scene.objects.end()) return "";
+  const auto more = std::count_if(found + 1, scene.objects.end(), wanted);
+  return describe(*found) + (more ? " and " + std::to_string(more) + " more" : "");
+}
+
+const char* shape_name(Shape shape) {
+  static constexpr const char* names[] = {"sphere", "plane", "rectangle", "disk", "box", "mesh", "curve"};
+  return names[static_cast<int>(shape)];
+}
+
+std::string by_shape(const Scene& scene, EffectBit effect) {
+  return first_object(
+      scene, [&](const Object& object) { return effect_of(object.shape) == effect; },
+      [](const Object& object) {
+        return object.is_disc_light ? "light_pos of " + object.pointer
+                                    : std::string(shape_name(object.shape)) + " " + object.pointer;
+      });
+}
+
+/// `what` is the key of the material that calls for the effect.
+template <typename Predicate>
+std::string by_material(const Scene& scene, const char* what, const Predicate& wanted) {
+  const auto material = [&](const Object& object) -> const MaterialSpec& {
+    return scene.materials[static_cast<std::size_t>(object.material)];
+  };
+  return first_object(
+      scene, [&](const Object& object) { return wanted(material(object)); },
+      [&](const Object& object) {
+        const std::string& pointer = material(object).pointer;
+        const bool inline_material = pointer.rfind(object.pointer, 0) == 0;
+        return std::string(what) + " of " + pointer + (inline_material ? "" : " on " + object.pointer);
+      });
+}
+
+std::string by_kind(const Scene& scene, Kind kind, const char* what) {
+  return by_material(scene, what, [&](const MaterialSpec& material) { return material.kind == kind; });
+}
+
+std::string environment_reason(const Scene& scene) {
+  return scene.environment && is_lit(*scene.environment) ? "environment " + scene.environment->pointer : "";
+}
+
+std::string delta_lights_reason(const Scene& scene) {
+  const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                  [](const DeltaLight& light) { return is_lit(light); });
+  return found == scene.lights.end() ? "" : "light " + found->pointer;
+}
+
+bool fills(const MediumSpec& medium) {
+  return max_component(medium.absorption) > 0 || max_component(medium.scattering) > 0;
+}
+
+}  // namespace
+
+template <>
+std::string effect_reason<EFFECT_TRIANGLES>(const Scene& scene) {
+  return by_shape(scene, EFFECT_TRIANGLES);
+}
+
+template <>
+std::string effect_reason<EFFECT_SPHERES>(const Scene& scene) {
+  return by_shape(scene, EFFECT_SPHERES);
+}
+
+template <>
+std::string effect_reason<EFFECT_PLANES>(const Scene& scene) {
+  return by_shape(scene, EFFECT_PLANES);
+}
+
+template <>
+std::string effect_reason<EFFECT_DISKS>(const Scene& scene) {
+  return by_shape(scene, EFFECT_DISKS);
+}
+
+template <>
+std::string effect_reason<EFFECT_BEZIER>(const Scene& scene) {
+  return by_shape(scene, EFFECT_BEZIER);
+}
+
+template <>
+std::string effect_reason<EFFECT_TEXTURES>(const Scene& scene) {
+  return by_material(scene, "texture",
+                     [](const MaterialSpec& material) { return material.color_texture >= 0; });
+}
+
+template <>
+std::string effect_reason<EFFECT_MIRROR>(const Scene& scene) {
+  return by_kind(scene, Kind::mirror, "mirror");
+}
+
+template <>
+std::string effect_reason<EFFECT_GLASS>(const Scene& scene) {
+  return by_kind(scene, Kind::glass, "glass");
+}
+
+template <>
+std::string effect_reason<EFFECT_LENS>(const Scene& scene) {
+  return scene.camera.aperture > 0 ? "/camera/aperture" : "";
+}
+
+/// Shadow rays want something to go to: infinite planes, which are never sampled, do not count.
+template <>
+std::string effect_reason<EFFECT_SHADOW_RAYS>(const Scene& scene) {
+  if (scene.renderer.direct_light != DirectLight::shadow_rays) return "";
+  const auto wanted = [&](const Object& object) {
+    return object.shape != Shape::plane && is_lit(scene, object);
+  };
+  const std::string key = "/renderer/direct_light with the ";
+  std::string surface =
+      first_object(scene, wanted, [&](const Object& object) { return key + "emitter " + object.pointer; });
+  if (!surface.empty()) return surface;
+  const std::string delta_light = delta_lights_reason(scene), environment = environment_reason(scene);
+  if (!delta_light.empty()) return key + delta_light;
+  return environment.empty() ? "" : key + environment;
+}
+
+template <>
+std::string effect_reason<EFFECT_ROUGH>(const Scene& scene) {
+  return by_material(scene, "roughness", [](const MaterialSpec& material) { return material.roughness > 0; });
+}
+
+template <>
+std::string effect_reason<EFFECT_CONDUCTOR>(const Scene& scene) {
+  return by_kind(scene, Kind::conductor, "conductor");
+}
+
+template <>
+std::string effect_reason<EFFECT_PLASTIC>(const Scene& scene) {
+  return by_kind(scene, Kind::plastic, "plastic");
+}
+
+template <>
+std::string effect_reason<EFFECT_ENVIRONMENT>(const Scene& scene) {
+  return environment_reason(scene);
+}
+
+template <>
+std::string effect_reason<EFFECT_DELTA_LIGHTS>(const Scene& scene) {
+  return delta_lights_reason(scene);
+}
+
+template <>
+std::string effect_reason<EFFECT_ABSORPTION>(const Scene& scene) {
+  return by_material(scene, "absorption",
+                     [](const MaterialSpec& material) { return max_component(material.absorption) > 0; });
+}
+
+template <>
+std::string effect_reason<EFFECT_DISPERSION>(const Scene& scene) {
+  return by_material(scene, "cauchy", [](const MaterialSpec& material) { return material.dispersion > 0; });
+}
+
+template <>
+std::string effect_reason<EFFECT_MOTION>(const Scene& scene) {
+  if (!has_motion(scene)) return "";
+  return first_object(
+      scene, [](const Object& object) { return length(object.motion) > 0; },
+      [](const Object& object) { return "motion of " + object.pointer; });
+}
+
+template <>
+std::string effect_reason<EFFECT_MEDIUM>(const Scene& scene) {
+  return fills(scene.medium) ? "/medium" : "";
+}
+
+template <>
+std::string effect_reason<EFFECT_GUIDED_PHOTONS>(const Scene& scene) {
+  return scene.renderer.guided_photons.value_or(false) ? "/renderer/guided_photons" : "";
+}
+
+/// Light becomes a caustic by what is not diffuse.
+template <>
+std::string effect_reason<EFFECT_AIMED_PHOTONS>(const Scene& scene) {
+  if (!aims_photons(scene)) return "";
+  return by_material(scene, "type",
+                     [](const MaterialSpec& material) { return material.kind != Kind::diffuse; });
+}
+
+template <>
+std::string effect_reason<EFFECT_SMOOTH>(const Scene& scene) {
+  return first_object(
+      scene,
+      [&](const Object& object) {
+        return object.shape == Shape::mesh && object.smooth &&
+               !scene.meshes[static_cast<std::size_t>(object.mesh)].normal_index.empty();
+      },
+      [](const Object& object) { return "normals of mesh " + object.pointer; });
+}
+
+template <>
+std::string effect_reason<EFFECT_SLIVERS>(const Scene& scene) {
+  return first_object(
+      scene, [&](const Object& object) { return has_slivers(scene, object); },
+      [](const Object& object) {
+        return "triangles of " + std::string(shape_name(object.shape)) + " " + object.pointer;
+      });
+}
+
+template <>
+std::string effect_reason<EFFECT_NESTED>(const Scene& scene) {
+  return find_dielectrics(scene).reason;
+}
+
+template <>
+std::string effect_reason<EFFECT_WALLS>(const Scene& scene) {
+  return walls_reason(scene);
+}
+
+/// Planes that light from beyond the scene reaches to the horizon.
+template <>
+std::string effect_reason<EFFECT_HORIZON>(const Scene& scene) {
+  return has_infinite_light(scene) ? by_shape(scene, EFFECT_PLANES) : "";
+}
+
+}  // namespace causticl
