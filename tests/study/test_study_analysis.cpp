@@ -2,6 +2,7 @@
 #include "study/study_analysis.hpp"
 
 #include <random>
+#include <string_view>
 
 #include "catch2.hpp"
 #include "study_fixture.hpp"
@@ -10,10 +11,10 @@ using namespace causticl;
 
 namespace {
 
-const SettingAnalysis& setting_of(const StudyAnalysis& analysis, const std::string& id) {
+const SettingAnalysis& setting_of(const StudyAnalysis& analysis, std::string_view id) {
   for (const auto& setting : analysis.settings)
     if (setting.setting.id() == id) return setting;
-  throw std::runtime_error("no setting " + id);
+  throw std::runtime_error("no setting " + std::string(id));
 }
 
 }  // namespace
