@@ -58,7 +58,7 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
                                       real4 random, real3 *origin) {
   *origin = offset_origin(surface->position, surface->error, facing, facing);
   LightSample light = light_sample(scene, *origin, random);
-  if (HAS(EFFECT_GLASS) && bsdf->kind == MATERIAL_GLASS && dot3(light.direction, facing) < 0) {
+  if (transmits(bsdf->kind) && dot3(light.direction, facing) < 0) {
     *origin = offset_origin(surface->position, surface->error, facing, -facing);
     light = light_sample(scene, *origin, random);
     if (!(dot3(light.direction, facing) < 0)) light.weight = (real3)(0, 0, 0);

@@ -27,7 +27,7 @@ INLINE uint choose_channel(real random, real3 *throughput) {
 INLINE void disperse(Bsdf *bsdf, global const Material *material, real3 inverse_wavelength2, real random,
                      real3 *throughput) {
   real b = material->absorption.w, sum = throughput->x + throughput->y + throughput->z;
-  if (bsdf->kind != MATERIAL_GLASS || !(b > 0) || !(sum > 0)) return;
+  if (!bounds_body(bsdf->kind) || !(b > 0) || !(sum > 0)) return;
   uint channel = choose_channel(random, throughput);
   real3 w = inverse_wavelength2;
   bsdf->ior += b * (channel == 0 ? w.x : channel == 1 ? w.y : w.z);

@@ -1,4 +1,5 @@
 // What lies along a path's segments: the inside of glass, which absorbs, or the medium that fills all other space.
+#include "core/material_kind.cl"
 #include "media/medium.cl"
 #include "shapes/ray.cl"
 #include "shared/types.h"
@@ -23,14 +24,14 @@ INLINE Interior interior_of(global const Material *material) {
 // wherever the path began; one that is met from the front, or is not of glass, leaves it as the last boundary told.
 INLINE Interior interior_before(Interior interior, global const Material *material, const Surface *surface,
                                 real3 direction) {
-  bool behind = material->kind == MATERIAL_GLASS && dot3(direction, surface->geometric_normal) > 0;
+  bool behind = bounds_body(material->kind) && dot3(direction, surface->geometric_normal) > 0;
   return behind ? interior_of(material) : interior;
 }
 
 // The interior of the segment that leaves `surface` along `direction`.
 INLINE Interior interior_after(Interior interior, global const Material *material, const Surface *surface,
                                real3 direction) {
-  if (material->kind != MATERIAL_GLASS) return interior;
+  if (!bounds_body(material->kind)) return interior;
   return dot3(direction, surface->geometric_normal) < 0 ? interior_of(material) : interior_none();
 }
 

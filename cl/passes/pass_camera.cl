@@ -88,7 +88,7 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
       break;
     }
 #if DIFFUSE_VERTICES_BATCHED
-    if (scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE) {
+    if (is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind)) {
       diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, sampler.pixel, index % params->visible_points, ray, hit, throughput,
                     radiance.sum, bounce, counted);
       return rays;
@@ -113,12 +113,11 @@ OUTLINE uint camera_path(const Scene *scene, const Params *params, uint index, g
     boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &throughput);
     real4 random = path_random_at(&sampler, bounce, DIM_BSDF);
-    if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
+    if (HAS(EFFECTS_OF_MATERIALS(TRANSMITS | LAYERED)))
       counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
                            bounce, params->max_depth, counted, &radiance, &rays, counters);
-    if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
-      plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
-    if (!DIFFUSE_VERTICES_BATCHED && bsdf.kind == MATERIAL_DIFFUSE) {
+    if (is_layered(bsdf.kind)) choose_lobe(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
+    if (!DIFFUSE_VERTICES_BATCHED && is_lambert(bsdf.kind)) {
       real3 n = facing_normal(&surface, ray.direction);
       real3 weight = throughput * bsdf.color * INV_PI;
       if (!(max_component(weight) > 0)) break;
@@ -201,7 +200,7 @@ OUTLINE uint camera_paths(const Scene *scene, const Params *params, uint first, 
       global const PrimaryHit *found = (global const PrimaryHit *)visible_points + index;
       Hit hit = hit_none(INFINITY);
       if (primary_hit(found, &hit))
-        receives = scene->materials[geometry_material(&scene->geometry, hit)].kind == MATERIAL_DIFFUSE;
+        receives = is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind);
       diffuse_vertices_put(&diffuse_vertices, count, pixel, sample, first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), 0, false);
     }
     others[other_count] = index;

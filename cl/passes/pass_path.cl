@@ -89,15 +89,14 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
     boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &throughput);
     real4 random = path_random_at(sampler, bounce, DIM_BSDF);
-    if (HAS(EFFECT_GLASS | EFFECT_PLASTIC))
+    if (HAS(EFFECTS_OF_MATERIALS(TRANSMITS | LAYERED)))
       counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
                            bounce, max_depth, counted, &radiance, rays, counters);
-    if (HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC)
-      plastic_choose(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
+    if (is_layered(bsdf.kind)) choose_lobe(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
     counted = counted && bsdf_is_specular(&bsdf);
     prefix = prefix_after(prefix, bsdf_is_specular(&bsdf));
     bool covered = media_covered(scene, &boundary.media);
-    if (bsdf.kind == MATERIAL_DIFFUSE && scene->emitter_count > 0 && max_component(bsdf.color) > 0 && !covered) {
+    if (is_lambert(bsdf.kind) && scene->emitter_count > 0 && max_component(bsdf.color) > 0 && !covered) {
       real3 n = facing_normal(&surface, ray.direction);
       radiance_add(&radiance, prefix,
                    direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,

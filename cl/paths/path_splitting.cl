@@ -14,13 +14,6 @@
 #define SPLITTING_VERTICES 4u
 #endif
 
-INLINE real glass_reflectance(const Bsdf *bsdf, const Surface *surface, real3 d, real3 n) {
-  real eta = dot3(surface->geometric_normal, d) < 0 ? bsdf->ior : 1 / bsdf->ior, cosine_t;
-  return fresnel_dielectric(fmin(-dot3(d, n), (real)1), eta, &cosine_t);
-}
-
-INLINE bool is_smooth(const Bsdf *bsdf, uint kind) { return bsdf->kind == kind && !bsdf_is_rough(bsdf); }
-
 // Adds what lies at the end of the lobe that lobe_number draws at `surface`, and of the likely lobes from there on.
 // `carried` is the path's throughput times the probability of that lobe.
 OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
@@ -63,13 +56,13 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
     // Which decides whether a lobe is smooth.
     boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &branch_throughput);
-    if (!bsdf_is_specular(&bsdf) || bsdf.kind == MATERIAL_PLASTIC) return;
+    if (!bsdf_is_specular(&bsdf) || is_layered(bsdf.kind)) return;
     // What absorbing glass reflects to and fro is not worth following for long.
     real survival = fmin(1000 * max_component(branch_throughput), (real)1);
     if (random_at(stream, bounce, DIM_BRANCH).x >= survival) return;
     branch_throughput /= survival;
-    if (HAS(EFFECT_GLASS) && bsdf.kind == MATERIAL_GLASS) {
-      real reflectance = glass_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
+    if (transmits(bsdf.kind)) {
+      real reflectance = lobe_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
       lobe_number = reflectance < (real)0.5f ? 1 : 0;
       branch_throughput *= fmax(reflectance, 1 - reflectance);
     }
@@ -83,9 +76,8 @@ INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surf
                        real3 throughput, Interior interior, const Boundary *boundary, uint prefix,
                        RandomStream stream, uint bounce, uint max_depth, bool counted, Radiance *radiance, uint *rays,
                        volatile global Counters *counters) {
-  bool glass = HAS(EFFECT_GLASS) && is_smooth(bsdf, MATERIAL_GLASS);
-  bool plastic = HAS(EFFECT_PLASTIC) && is_smooth(bsdf, MATERIAL_PLASTIC);
-  if (!glass && !plastic) return counted && bsdf_is_specular(bsdf);
+  bool through = transmits(bsdf->kind) && !bsdf_is_rough(bsdf), layered = is_layered(bsdf->kind) && !bsdf_is_rough(bsdf);
+  if (!through && !layered) return counted && bsdf_is_specular(bsdf);
   // In a medium the look would be a path of its own, which may be scattered.
   bool looks = scene->emission_met && prefix == PREFIX_NO_DIFFUSE && bounce < SPLITTING_VERTICES;
   if (HAS(EFFECT_MEDIUM) && max_component(scene->medium.extinction) > 0) looks = false;
@@ -93,9 +85,9 @@ INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surf
   real probability = 1, toward = 0;
   bool taken = true;
   Bsdf lobe = *bsdf;
-  if (plastic) lobe.color = (real3)(1, 1, 1);
-  if (glass) {
-    real reflectance = glass_reflectance(bsdf, surface, ray.direction, facing_normal(surface, ray.direction));
+  if (layered) lobe.color = (real3)(1, 1, 1);
+  if (through) {
+    real reflectance = lobe_reflectance(bsdf, surface, ray.direction, facing_normal(surface, ray.direction));
     bool reflects = reflectance < (real)0.5f;
     probability = fmin(reflectance, 1 - reflectance);
     toward = reflects ? 0 : 1;

@@ -106,7 +106,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
     flux *= interior_transmittance(photon->interior, hit.t);
   }
 
-  bool plastic = HAS(EFFECT_PLASTIC) && bsdf.kind == MATERIAL_PLASTIC, diffuse = bsdf.kind == MATERIAL_DIFFUSE;
+  bool layered = is_layered(bsdf.kind), diffuse = is_lambert(bsdf.kind);
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
   bool counted = shadow_rays && bounce == 0, far = is_far(&scene->geometry, hit, surface.position);
@@ -116,7 +116,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   if (!HAS(EFFECT_GUIDED_PHOTONS)) deposits_here = deposits_here && !counted;
   if (deposits_here) {
     real3 deposited = scaled3(shading_normal_arrival(&surface, direction), flux);
-    if (plastic) deposited *= fresnel_transmittance(-dot3(direction, n), bsdf.ior);
+    if (layered) deposited = scaled3(base_transmittance(&bsdf, -dot3(direction, n)), deposited);
     real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
     uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, deposited,
                                 photon->prefix, random_at(stream, bounce, DIM_QUANTISE), record);
@@ -125,13 +125,13 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   bool alive = !(diffuse && black) && bounce + 1 != params->max_depth;
   if (!VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) && !alive) return events;
 
-  if (plastic) plastic_choose(&bsdf, direction, n, random.z);
+  if (layered) choose_lobe(&bsdf, direction, n, random.z);
   photon->prefix = prefix_after(photon->prefix, bsdf_is_specular(&bsdf));
-  photon->mark = bsdf.kind == MATERIAL_DIFFUSE ? INDIRECT_PHOTON : photon->mark;
+  photon->mark = is_lambert(bsdf.kind) ? INDIRECT_PHOTON : photon->mark;
   BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
   if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
-  if (far && bsdf.kind == MATERIAL_DIFFUSE)
+  if (far && is_lambert(bsdf.kind))
     next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
   flux = mul3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.

@@ -23,9 +23,9 @@ typedef struct {
 
 INLINE bool is_dielectric(const Scene *scene, const Surface *surface) {
   global const Material *material = scene->materials + surface->material;
-  if (material->kind != MATERIAL_GLASS) return false;
+  if (!bounds_body(material->kind)) return false;
   if (!HAS(EFFECT_TEXTURES) || !(material->flags & MATERIAL_ALPHA_DIFFUSE)) return true;
-  return bsdf_at(material, scene->textures, scene->texels, surface->uv).kind == MATERIAL_GLASS;
+  return bounds_body(bsdf_at(material, scene->textures, scene->texels, surface->uv).kind);
 }
 
 // The bound of a surface's error along a normal.

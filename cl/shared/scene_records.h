@@ -13,12 +13,6 @@ typedef struct {
 } Camera;
 CHECK_SIZE(Camera, 96);
 
-#define MATERIAL_DIFFUSE 0u
-#define MATERIAL_MIRROR 1u
-#define MATERIAL_GLASS 2u
-#define MATERIAL_CONDUCTOR 3u
-#define MATERIAL_PLASTIC 4u  // a dielectric boundary over a Lambert base
-
 #define MATERIAL_TWO_SIDED 1u      // emits on both sides
 #define MATERIAL_ALPHA_DIFFUSE 2u  // texels with alpha > 0 are diffuse, whatever `kind` says (base format)
 

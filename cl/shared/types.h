@@ -5,6 +5,7 @@
 // drifts, and a test compares the offset of every field as the device sees it with offsetof on the host.
 #pragma once
 
+#include "shared/materials.h"
 #include "shared/real.h"
 
 #ifdef __OPENCL_VERSION__

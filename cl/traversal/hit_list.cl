@@ -1,5 +1,5 @@
 // All primitives that a ray meets, in any order: what lies at one place, and how often a ray leaves a body.
-
+#include "core/material_kind.cl"
 #include "traversal/geometry.cl"
 
 // Primitives that a list holds, at most. Those beyond are left out, and `full` is set.
@@ -20,7 +20,7 @@ typedef struct {
 
 // Adds a hit of a primitive, unless the list has it already: a tree may name a primitive in several leaves.
 INLINE void hit_list_add(HitList *list, const HitFilter *filter, uint material, uint primitive, Hit hit) {
-  if (filter->dielectrics && filter->materials[material].kind != MATERIAL_GLASS) return;
+  if (filter->dielectrics && !bounds_body(filter->materials[material].kind)) return;
   for (uint i = 0; i < list->count; ++i)
     if (list->primitive[i] == primitive) return;
   if (list->count == HIT_LIST_CAPACITY) {

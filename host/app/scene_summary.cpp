@@ -8,6 +8,7 @@
 #include "base/printable.hpp"
 #include "format/scene_output.hpp"
 #include "scene/dielectrics.hpp"
+#include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "world/view_check.hpp"
 
@@ -48,22 +49,6 @@ const char* shape_name(Object::Shape shape) {
       break;
   }
   return "bezier_rotate";
-}
-
-const char* material_name(MaterialSpec::Kind kind) {
-  switch (kind) {
-    case MaterialSpec::Kind::diffuse:
-      return "diffuse";
-    case MaterialSpec::Kind::mirror:
-      return "mirror";
-    case MaterialSpec::Kind::glass:
-      return "glass";
-    case MaterialSpec::Kind::conductor:
-      return "conductor";
-    case MaterialSpec::Kind::plastic:
-      break;
-  }
-  return "plastic";
 }
 
 void print_image(std::ostream& text, const Scene& scene) {
@@ -154,7 +139,7 @@ void print_medium(std::ostream& text, const MediumSpec& medium) {
 
 void print_materials(std::ostream& text, const Scene& scene) {
   std::map<std::string, std::size_t> kinds;
-  for (const auto& material : scene.materials) ++kinds[material_name(material.kind)];
+  for (const auto& material : scene.materials) ++kinds[name_of(material.kind)];
   text << "materials   " << scene.materials.size();
   const char* separator = ": ";
   for (const auto& [kind, number] : kinds) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "device_scene/material_record.hpp"
 #include "world/flat_scene.hpp"
 
 namespace causticl {
@@ -10,57 +11,6 @@ namespace {
 
 float4 to_float4(Vec3 v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
-/// Fraction of diffuse light that a smooth boundary to the index `eta` reflects back inside, from what it
-/// lets in from outside by reciprocity. The integral over sin^2 theta by the midpoint rule, to 1e-6.
-double inner_reflectance(double eta) {
-  constexpr int steps = 10000;
-  double entering = 0;
-  for (int i = 0; i < steps; ++i) {
-    const double cosine = std::sqrt((i + 0.5) / steps), square = (eta - 1) * (eta + 1) + cosine * cosine;
-    if (square <= 0) continue;
-    const double c = std::sqrt(square) / eta;
-    const double parallel = (eta * cosine - c) / (eta * cosine + c);
-    const double perpendicular = (cosine - eta * c) / (cosine + eta * c);
-    entering += (1 - 0.5 * (parallel * parallel + perpendicular * perpendicular)) / steps;
-  }
-  return 1 - entering / (eta * eta);
-}
-
-uint material_kind(MaterialSpec::Kind kind) {
-  switch (kind) {
-    case MaterialSpec::Kind::diffuse:
-      return MATERIAL_DIFFUSE;
-    case MaterialSpec::Kind::mirror:
-      return MATERIAL_MIRROR;
-    case MaterialSpec::Kind::glass:
-      return MATERIAL_GLASS;
-    case MaterialSpec::Kind::conductor:
-      return MATERIAL_CONDUCTOR;
-    case MaterialSpec::Kind::plastic:
-      break;
-  }
-  return MATERIAL_PLASTIC;
-}
-
-Material device_material(const MaterialSpec& spec, double outside_ior) {
-  Material result{};
-  result.color = to_float4(spec.color, spec.ior / outside_ior);
-  result.emission = to_float4(spec.emission);
-  if (spec.kind == MaterialSpec::Kind::conductor) {
-    result.eta = to_float4(1 / outside_ior * spec.eta);
-    result.k = to_float4(1 / outside_ior * spec.k);
-  } else if (spec.kind == MaterialSpec::Kind::plastic) {
-    result.eta.w = static_cast<float>(inner_reflectance(spec.ior / outside_ior));
-  }
-  result.absorption = to_float4(spec.absorption, spec.dispersion / outside_ior);
-  result.alpha = static_cast<float>(spec.roughness * spec.roughness);
-  result.kind = material_kind(spec.kind);
-  result.flags =
-      (spec.two_sided ? MATERIAL_TWO_SIDED : 0u) | (spec.alpha_diffuse ? MATERIAL_ALPHA_DIFFUSE : 0u);
-  result.color_texture = static_cast<uint>(spec.color_texture + 1);
-  return result;
 }
 
 /// IEEE half, round to nearest even; large values become the largest finite one. NaN and infinity stay what
@@ -163,7 +113,7 @@ DeviceScene update_device_scene(const Scene& scene, Device& device, unsigned thr
   out.dielectrics = find_dielectrics(scene);
   place_flat_scene(scene, scene.camera.shutter[0], device, out);
   std::vector<Material> materials;
-  for (const auto& spec : scene.materials) materials.push_back(device_material(spec, scene.outside_ior));
+  for (const auto& spec : scene.materials) materials.push_back(material_record(spec, scene.outside_ior));
   // Behind those of the scene one for each body, in the order in which they fill what several hold.
   for (std::size_t i = 0; i < out.dielectrics.bodies.size(); ++i) {
     const Object& body = scene.objects[static_cast<std::size_t>(out.dielectrics.bodies[i])];

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "effects/passes.hpp"
+#include "scene/material_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -27,7 +28,7 @@ Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
 WallPrimitive primitive_of(const Scene& scene, std::size_t material) {
   const MaterialSpec& spec = scene.materials[material];
   WallPrimitive result{};
-  result.blocks = spec.kind != MaterialSpec::Kind::glass || spec.alpha_diffuse;
+  result.blocks = !is_transparent(spec) || spec.alpha_diffuse;
   result.receives = stores_photons(spec);
   return result;
 }

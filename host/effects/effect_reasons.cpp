@@ -5,13 +5,13 @@
 #include "effects/shape_effect.hpp"
 #include "effects/walls_reason.hpp"
 #include "scene/dielectrics.hpp"
+#include "scene/material_kind.hpp"
 #include "scene/object_triangles.hpp"
 
 namespace causticl {
 namespace {
 
 using Shape = Object::Shape;
-using Kind = MaterialSpec::Kind;
 
 /// Names what calls for an effect: the first object that `wanted` accepts, by `describe`, and how many more.
 template <typename Predicate, typename Describe>
@@ -51,8 +51,10 @@ std::string by_material(const Scene& scene, const char* what, const Predicate& w
       });
 }
 
-std::string by_kind(const Scene& scene, Kind kind, const char* what) {
-  return by_material(scene, what, [&](const MaterialSpec& material) { return material.kind == kind; });
+std::string by_kind(const Scene& scene, unsigned effect) {
+  const auto wanted = [&](const MaterialSpec& material) { return effect_of(material.kind) == effect; };
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), wanted);
+  return found == scene.materials.end() ? "" : by_material(scene, name_of(found->kind), wanted);
 }
 
 std::string environment_reason(const Scene& scene) {
@@ -104,12 +106,12 @@ std::string effect_reason<EFFECT_TEXTURES>(const Scene& scene) {
 
 template <>
 std::string effect_reason<EFFECT_MIRROR>(const Scene& scene) {
-  return by_kind(scene, Kind::mirror, "mirror");
+  return by_kind(scene, EFFECT_MIRROR);
 }
 
 template <>
 std::string effect_reason<EFFECT_GLASS>(const Scene& scene) {
-  return by_kind(scene, Kind::glass, "glass");
+  return by_kind(scene, EFFECT_GLASS);
 }
 
 template <>
@@ -140,12 +142,12 @@ std::string effect_reason<EFFECT_ROUGH>(const Scene& scene) {
 
 template <>
 std::string effect_reason<EFFECT_CONDUCTOR>(const Scene& scene) {
-  return by_kind(scene, Kind::conductor, "conductor");
+  return by_kind(scene, EFFECT_CONDUCTOR);
 }
 
 template <>
 std::string effect_reason<EFFECT_PLASTIC>(const Scene& scene) {
-  return by_kind(scene, Kind::plastic, "plastic");
+  return by_kind(scene, EFFECT_PLASTIC);
 }
 
 template <>
@@ -192,7 +194,7 @@ template <>
 std::string effect_reason<EFFECT_AIMED_PHOTONS>(const Scene& scene) {
   if (!aims_photons(scene)) return "";
   return by_material(scene, "type",
-                     [](const MaterialSpec& material) { return material.kind != Kind::diffuse; });
+                     [](const MaterialSpec& material) { return !has_property(material.kind, LAMBERT); });
 }
 
 template <>

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <map>
 
+#include "scene/material_kind.hpp"
+
 namespace causticl {
 
 bool stores_photons(const MaterialSpec& material) {
-  const bool diffuse = material.kind == MaterialSpec::Kind::diffuse || material.alpha_diffuse;
-  return material.kind == MaterialSpec::Kind::plastic || (diffuse && material.color_texture >= 0) ||
-         (diffuse && max_component(material.color) > 0);
+  const bool stores = has_property(material.kind, STORES_PHOTONS) || material.alpha_diffuse;
+  return stores && (material.color_texture >= 0 || max_component(material.color) > 0);
 }
 
 namespace {

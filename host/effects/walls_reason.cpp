@@ -5,6 +5,7 @@
 
 #include "effects/passes.hpp"
 #include "scene/lit_sides.hpp"
+#include "scene/material_kind.hpp"
 #include "scene/object_sides.hpp"
 
 namespace causticl {
@@ -42,7 +43,7 @@ class WallsFinder {
   bool may_part(std::size_t index) const {
     const Object& wall = scene_.objects[index];
     const MaterialSpec& material = material_of(scene_, wall);
-    if (material.kind == MaterialSpec::Kind::glass && !material.alpha_diffuse) return false;
+    if (is_transparent(material) && !material.alpha_diffuse) return false;
     const bool moves = has_motion(scene_);
     // On which sides of a flat wall there is something that holds photons, and what of it is near.
     int found = 0, near = 0;

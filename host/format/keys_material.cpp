@@ -1,6 +1,7 @@
 // The tables of materials.
 #include "format/scene_keys.hpp"
 #include "scene/scene.hpp"
+#include "shared/materials.h"
 
 namespace causticl {
 namespace {
@@ -85,7 +86,9 @@ const SceneTable& plastic_keys() {
 }  // namespace
 
 ValueType material_type() {
-  return object("material", {&diffuse_keys, &mirror_keys, &glass_keys, &conductor_keys, &plastic_keys});
+#define KEYS_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) &name##_keys,
+  return object("material", {MATERIAL_TABLE(KEYS_OF_ROW, )});
+#undef KEYS_OF_ROW
 }
 
 }  // namespace causticl

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "format/scene_loader.hpp"
+#include "scene/material_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -67,7 +68,7 @@ void read_mesh_keys(const SceneObject& json, Object& object, SceneLoader& loader
 // What the mesh of an object has to be for its material.
 void prepare_mesh(const SceneObject& json, Object& object, SceneLoader& loader) {
   const MaterialSpec& material = loader.scene.materials[static_cast<std::size_t>(object.material)];
-  if (material.kind == MaterialSpec::Kind::glass) object.mesh = loader.mesh_of_glass(json, object.mesh);
+  if (bounds_body(material)) object.mesh = loader.mesh_of_glass(json, object.mesh);
   Mesh& mesh = loader.scene.meshes[static_cast<std::size_t>(object.mesh)];
   if (object.smooth && json.has("smooth")) add_missing_normals(mesh);
   if (material.color_texture >= 0 && mesh.uvs.empty())

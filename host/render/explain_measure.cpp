@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "render/explain.hpp"
+#include "scene/material_kind.hpp"
 #include "shared/effects.h"
 
 namespace causticl {
@@ -28,11 +29,11 @@ double kernel_milliseconds(const Scene& scene, Device& device, const RenderOptio
   return sum;
 }
 
-/// Of the materials that `kind` describes, diffuse ones of the same colour.
-Scene with_diffuse(Scene scene, MaterialSpec::Kind kind) {
+/// Of the materials of an effect, diffuse ones of the same colour.
+Scene with_diffuse(Scene scene, unsigned effect) {
   for (auto& material : scene.materials) {
-    if (material.kind != kind) continue;
-    if (kind == MaterialSpec::Kind::conductor) material.color = {0.8, 0.8, 0.8};
+    if (effect_of(material.kind) != effect) continue;
+    if (length(material.eta) > 0) material.color = {0.8, 0.8, 0.8};  // of a conductor, which has no colour
     material.kind = MaterialSpec::Kind::diffuse;
     material.roughness = 0;
   }
@@ -77,14 +78,6 @@ std::optional<std::pair<Scene, std::string>> scene_without(const Scene& scene, u
     case EFFECT_ROUGH:
       for (auto& material : plain.materials) material.roughness = 0;
       return std::pair{plain, "smooth surfaces"};
-    case EFFECT_MIRROR:
-      return std::pair{with_diffuse(scene, MaterialSpec::Kind::mirror), "diffuse surfaces"};
-    case EFFECT_GLASS:
-      return std::pair{with_diffuse(scene, MaterialSpec::Kind::glass), "diffuse surfaces"};
-    case EFFECT_CONDUCTOR:
-      return std::pair{with_diffuse(scene, MaterialSpec::Kind::conductor), "diffuse surfaces"};
-    case EFFECT_PLASTIC:
-      return std::pair{with_diffuse(scene, MaterialSpec::Kind::plastic), "diffuse surfaces"};
     case EFFECT_ABSORPTION:
       for (auto& material : plain.materials) material.absorption = {};
       return std::pair{plain, "clear glass"};
@@ -101,7 +94,8 @@ std::optional<std::pair<Scene, std::string>> scene_without(const Scene& scene, u
       plain.medium = {};
       return std::pair{plain, "empty space"};
     default:
-      return {};
+      if ((effect & effects_of_kinds(REFLECTS | TRANSMITS)) == 0) return {};
+      return std::pair{with_diffuse(scene, effect), "diffuse surfaces"};
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/contact.hpp"
+#include "scene/material_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -58,7 +59,7 @@ class Finder {
   const MaterialSpec& material(const Object& object) const {
     return scene_.materials[static_cast<std::size_t>(object.material)];
   }
-  bool is_glass(const Object& object) const { return material(object).kind == MaterialSpec::Kind::glass; }
+  bool is_glass(const Object& object) const { return bounds_body(material(object)); }
   bool fills(Vec3 v) const { return max_component(v) > 0; }
   /// Whether what lies inside glass is told from what lies outside along a segment that ends at neither.
   bool media_differ() const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/body.hpp"
+#include "scene/material_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -161,9 +162,7 @@ std::vector<std::string> lift_flush_emitters(Scene& scene) {
     Heights heights;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       const Object& other = scene.objects[j];
-      if (j == i || emission_of(scene, other) > 0 ||
-          material_of(scene, other).kind == MaterialSpec::Kind::glass)
-        continue;
+      if (j == i || emission_of(scene, other) > 0 || is_transparent(material_of(scene, other))) continue;
       if (dot(object.motion - other.motion, emitter->normal) != 0) continue;
       add_heights(scene, j, *emitter, facets, pairs, heights);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/mesh_parts.hpp"
+#include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "scene/object_sides.hpp"
 
@@ -107,7 +108,7 @@ class LitSidesFinder {
     });
   }
 
-  bool is_opaque(const Object& object) const { return material(object).kind != MaterialSpec::Kind::glass; }
+  bool is_opaque(const Object& object) const { return !is_transparent(material(object)); }
 
   int of_flat(const Object& object) const {
     const int lit = sides_that_may_be_lit(object);

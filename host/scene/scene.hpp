@@ -10,6 +10,7 @@
 #include "base/vec.hpp"
 #include "image/image.hpp"
 #include "mesh/mesh.hpp"
+#include "shared/materials.h"
 
 namespace causticl {
 
@@ -26,7 +27,9 @@ struct TextureSpec {
 
 struct MaterialSpec {
   std::string pointer;  // JSON pointer, "/materials/gold", "/objects/3/texture"
-  enum class Kind { diffuse, mirror, glass, conductor, plastic };
+#define KIND_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) name = number,
+  enum class Kind : unsigned { MATERIAL_TABLE(KIND_OF_ROW, ) };
+#undef KIND_OF_ROW
   Kind kind = Kind::diffuse;
   Color color{1, 1, 1};
   int color_texture = -1;      // index into Scene::textures; replaces `color`

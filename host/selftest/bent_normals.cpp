@@ -36,7 +36,7 @@ INLINE real sample(Bsdf bsdf, const Surface *surface, global const BentSurface *
                    bool photon) {
   real3 start = uniform_direction(random4(stream, 2 * number)), d = -start;
   real4 random = random4(stream, 2 * number + 1);
-  if (bsdf.kind == MATERIAL_PLASTIC) plastic_choose(&bsdf, d, facing_normal(surface, d), random.z);
+  if (is_layered(bsdf.kind)) choose_lobe(&bsdf, d, facing_normal(surface, d), random.z);
   BsdfSample next;
   if (!photon) next = bsdf_sample(&bsdf, surface, d, random, true);
   else if (from->vectorised) next = adjoint_bsdf_sample_smooth(&bsdf, surface, d, random);

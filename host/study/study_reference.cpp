@@ -7,6 +7,7 @@
 #include "accuracy/compare.hpp"
 #include "base/error.hpp"
 #include "effects/effects.hpp"
+#include "scene/material_kind.hpp"
 #include "shared/effects.h"
 #include "study/study_session.hpp"
 
@@ -56,8 +57,7 @@ void read_given(StudySession& session) {
 /// elsewhere photon mapping does better, with half the first radius so that it blurs less.
 StudySetting reference_setting(const StudySession& session) {
   const RenderSetup setup = session.renderer.setup_of(session.own_words);
-  constexpr unsigned not_diffuse =
-      EFFECT_MIRROR | EFFECT_GLASS | EFFECT_CONDUCTOR | EFFECT_PLASTIC | EFFECT_ROUGH;
+  constexpr unsigned not_diffuse = effects_of_kinds(REFLECTS | TRANSMITS) | EFFECT_ROUGH;
   const unsigned effects = effect_bits(find_effects(setup.scene));
   if (!(effects & not_diffuse) || session.study.first_radius == 0)
     return {"reference", "", merged_words(session.own_words, {"--integrator", "pt"}), true};

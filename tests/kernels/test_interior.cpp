@@ -65,7 +65,7 @@ TEST_CASE("a path knows by the sides of glass what it is inside of, and what tha
   std::size_t wrong_before = 0, wrong_after = 0, wrong_light = 0, lost_outside = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Input& input = inputs[i];
-    const bool glass = input.direction.w == MATERIAL_GLASS, along = outputs[4 * i + 2].w > 0;
+    const bool glass = input.direction.w == float(MATERIAL_GLASS), along = outputs[4 * i + 2].w > 0;
     const Vec3 own = to_vec3(input.absorption), around = to_vec3(input.around);
     const bool was_inside = input.normal.w != 0;
     // Met from behind, glass encloses the way there; gone into, the way on.

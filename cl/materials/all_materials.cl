@@ -1,0 +1,6 @@
+// Every material of MATERIAL_TABLE.
+#include "materials/conductor.cl"
+#include "materials/diffuse.cl"
+#include "materials/glass.cl"
+#include "materials/mirror.cl"
+#include "materials/plastic.cl"
