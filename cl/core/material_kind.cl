@@ -6,7 +6,7 @@
 // Whether a material is of the kind of a row. No material is where the program is compiled without its effect.
 #define IS_KIND(kind, NAME, effect) (((effect) == 0u || HAS(effect)) && (kind) == MATERIAL_##NAME)
 
-#define KIND_HAS(wanted, NAME, number, name, effect, family, layers, fields, properties) \
+#define KIND_HAS(wanted, NAME, number, name, effect, family, layers, fields, properties, ...) \
   || ((((family) | (layers) | (properties)) & (wanted)) != 0u && IS_KIND(kind, NAME, effect))
 
 INLINE bool is_lambert(uint kind) { return false MATERIAL_TABLE(KIND_HAS, LAMBERT); }
@@ -16,6 +16,6 @@ INLINE bool stores_photons(uint kind) { return false MATERIAL_TABLE(KIND_HAS, ST
 INLINE bool bounds_body(uint kind) { return false MATERIAL_TABLE(KIND_HAS, BOUNDS_BODY); }
 
 // The effects of the materials with a property, for HAS().
-#define EFFECT_IF_HAS(wanted, NAME, number, name, effect, family, layers, fields, properties) \
+#define EFFECT_IF_HAS(wanted, NAME, number, name, effect, family, layers, fields, properties, ...) \
   | ((((family) | (layers) | (properties)) & (wanted)) != 0u ? (effect) : 0u)
 #define EFFECTS_OF_MATERIALS(wanted) (0u MATERIAL_TABLE(EFFECT_IF_HAS, wanted))

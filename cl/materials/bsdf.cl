@@ -8,7 +8,7 @@
 #define READ_COMMON_FIELDS(name, effect)
 #define READ_OWN_FIELDS(name, effect) \
   if (HAS(effect)) name##_read(material, &bsdf);
-#define READ_ROW(x, NAME, number, name, effect, family, layers, fields, properties) READ_##fields(name, effect)
+#define READ_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) READ_##fields(name, effect)
 
 INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
                     real2 uv) {
@@ -39,13 +39,13 @@ INLINE bool keeps_photons(const Bsdf *bsdf, global const Material *material) {
 #define CHOOSE_ONE_LOBE(NAME, name, effect)
 #define CHOOSE_LAYERED(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) name##_choose_lobe(bsdf, wi, n, random);
-#define CHOOSE_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define CHOOSE_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   CHOOSE_##layers(NAME, name, effect)
 
 #define BASE_OF_ONE_LOBE(NAME, name, effect)
 #define BASE_OF_LAYERED(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_base_transmittance(bsdf, cosine);
-#define BASE_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define BASE_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   BASE_OF_##layers(NAME, name, effect)
 
 // How much of the light that arrives at this cosine comes to the base of a layered material.
@@ -63,7 +63,7 @@ INLINE void choose_lobe(Bsdf *bsdf, real3 wi, real3 n, real random) {
 #define REFLECTANCE_OF_REFLECTS(NAME, name, effect)
 #define REFLECTANCE_OF_TRANSMITS(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_reflectance(bsdf, surface, wi, n);
-#define REFLECTANCE_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define REFLECTANCE_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   REFLECTANCE_OF_##family(NAME, name, effect)
 
 // The probability with which a material that transmits, where smooth, reflects a path.
@@ -81,7 +81,7 @@ INLINE real lobe_reflectance(const Bsdf *bsdf, const Surface *surface, real3 wi,
     x = chosen ? own.direction.x : x, y = chosen ? own.direction.y : y, z = chosen ? own.direction.z : z; \
     sample.weight = choose3(chosen, own.weight, sample.weight);                                       \
   }
-#define SELECT_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define SELECT_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   SELECT_##family(NAME, name, effect)
 
 // What bsdf_sample() draws where every material is diffuse, a mirror or smooth and transmitting. What the branches hand on
@@ -106,12 +106,12 @@ INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, r
 #define SAMPLE_LAMBERT(NAME, name, effect)
 #define SAMPLE_REFLECTS(NAME, name, effect)                                                                        \
   if (HAS(effect) && bsdf->kind == MATERIAL_##NAME) {                                                              \
-    BsdfSample sample = {mirror_direction(surface, wi, n), name##_tint(bsdf, -dot3(wi, n)), 0};                    \
+    BsdfSample sample = {mirror_direction(surface, wi, n), name##_tint(bsdf, -dot3(wi, n), false), 0};                    \
     return sample;                                                                                                 \
   }
 #define SAMPLE_TRANSMITS(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_sample(bsdf, surface, wi, n, random, radiance);
-#define SAMPLE_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define SAMPLE_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   SAMPLE_##family(NAME, name, effect)
 
 // Draws where a path that arrives along `wi` goes on. `radiance` is true on camera paths.

@@ -8,7 +8,7 @@ INLINE void conductor_read(global const Material *material, Bsdf *bsdf) {
 }
 
 // What reflection is multiplied by, where `cosine` is of incidence.
-INLINE real3 conductor_tint(const Bsdf *bsdf, real cosine) {
+INLINE real3 conductor_tint(const Bsdf *bsdf, real cosine, bool refracts) {
   return (real3)(fresnel_conductor(cosine, bsdf->eta.x, bsdf->k.x), fresnel_conductor(cosine, bsdf->eta.y, bsdf->k.y),
                  fresnel_conductor(cosine, bsdf->eta.z, bsdf->k.z));
 }

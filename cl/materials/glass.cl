@@ -1,4 +1,8 @@
-// A dielectric boundary, and what a material of the family TRANSMITS has to hold.
+// A dielectric boundary, smooth. It shows what a material of the family TRANSMITS holds:
+//   name_sample()       where a path goes on; random.z chooses between reflection and transmission
+//   name_reflectance()  the probability with which that is reflection
+//   name_tint()         what the one that was chosen is multiplied by
+//   name_ways()         the same for photons: SpecularWays
 #include "materials/fresnel.cl"
 #include "materials/mirror.cl"
 
@@ -46,9 +50,12 @@ INLINE bool bends_back(real cosine_g, real cosine_s, real between, real eta, rea
   return !((cosine_s / eta - cosine_t) * between - cosine_g / eta <= -GRAZING_COSINE);
 }
 
-// The ways of glass with the index `eta` beyond over that on the photon's side.
-INLINE SpecularWays glass_ways(ShadingFrame f, real eta) {
+INLINE real3 glass_tint(const Bsdf *bsdf, real cosine, bool refracts) { return bsdf->color; }
+
+// The ways of glass. `eta` is the index beyond over that on the photon's side.
+INLINE SpecularWays glass_ways(const Bsdf *bsdf, ShadingFrame f, real eta) {
   SpecularWays ways = mirror_ways(f);
+  ways.eta = eta;
   real cosine_t, back_s, back_g;
   real reflectance_s = fresnel_dielectric(f.cosine_s, eta, &back_s);
   real reflectance_g = fresnel_dielectric(f.cosine_g, eta, &back_g);

@@ -15,7 +15,7 @@ INLINE real3 mirror_direction(const Surface *surface, real3 d, real3 n) {
 }
 
 // What reflection is multiplied by, where `cosine` is of incidence.
-INLINE real3 mirror_tint(const Bsdf *bsdf, real cosine) { return bsdf->color; }
+INLINE real3 mirror_tint(const Bsdf *bsdf, real cosine, bool refracts) { return bsdf->color; }
 
 // The ways of a mirror: see SpecularWays.
 INLINE SpecularWays mirror_ways(ShadingFrame f) {
@@ -27,6 +27,6 @@ INLINE SpecularWays mirror_ways(ShadingFrame f) {
   real path_s = 2 * f.cosine_g * f.between - f.cosine_s;
   ways.mirrored_g = reflects_about_shading(f.cosine_g, path_s, f.between) ? 0 : 1;
   ways.tint_cosine_g = path_s > 0 ? path_s : f.cosine_g;
-  ways.refracted_s = 0, ways.refracted_g = 0, ways.cosine_t_s = 0, ways.cosine_t_g = 0;
+  ways.refracted_s = 0, ways.refracted_g = 0, ways.cosine_t_s = 0, ways.cosine_t_g = 0, ways.eta = 1;
   return ways;
 }

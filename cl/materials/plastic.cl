@@ -5,7 +5,7 @@
 INLINE void plastic_read(global const Material *material, Bsdf *bsdf) { bsdf->inner = material->eta.w; }
 
 // What the boundary reflects, where `cosine` is of incidence.
-INLINE real3 plastic_tint(const Bsdf *bsdf, real cosine) {
+INLINE real3 plastic_tint(const Bsdf *bsdf, real cosine, bool refracts) {
   return bsdf->color * (1 - fresnel_transmittance(cosine, bsdf->ior));
 }
 

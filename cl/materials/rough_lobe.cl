@@ -37,7 +37,7 @@ INLINE BsdfSample rough_lobe(const Bsdf *bsdf, const Facing *facing, real3 wo, r
       if (radiance) sample.weight = sample.weight / (facing->eta * facing->eta);
     }
   } else if (wo.z > 0) {
-    sample.weight = reflection_tint(bsdf, cosine) * shadowing;
+    sample.weight = lobe_tint(bsdf, cosine, false) * shadowing;
     sample.pdf = density * (real)0.25f;
   }
   return sample;

@@ -30,5 +30,6 @@ INLINE bool reflects_about_shading(real cosine_g, real cosine_s, real between) {
 typedef struct {
   real mirrored_s, mirrored_g, refracted_s, refracted_g;
   real cosine_t_s, cosine_t_g;  // of the refracted directions
+  real eta;                     // index beyond over that on the photon's side, by which refraction bends
   real tint_cosine_g;           // with which the path that is mirrored about Ng sees the surface
 } SpecularWays;

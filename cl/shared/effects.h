@@ -5,6 +5,8 @@
 // the scene does not need.
 #pragma once
 
+#include "shared/materials.h"
+
 // Programs whose kernels ask for an effect with HAS(); the other programs are compiled without it, and are the same
 // for every scene.
 #define IN_PHOTON 1u
@@ -33,7 +35,7 @@
 // Columns: EFFECT_name is its bit; the number of that bit; the key, as --effects takes it and `explain` prints it; the
 // programs that read it; the steps that cannot be batched with it; where its primitives are; its name in text.
 // What in a scene calls for an effect: the function of its name in host/effects/effect_reasons.cpp.
-// `ROW(argument, ...)` is made of each row.
+// Those of materials are in materials.h. `ROW(x, ...)` is made of each row.
 #define EFFECT_TABLE(ROW, x) \
   ROW(x, TRIANGLES,      0,  "triangles",      IN_PATHS,              BATCHED,                  TRIANGLE_LEAVES, "triangles") \
   ROW(x, SPHERES,        1,  "spheres",        IN_PATHS,              BATCHED,                  SHAPE_LEAVES,    "spheres") \
@@ -41,13 +43,9 @@
   ROW(x, DISKS,          3,  "disks",          IN_PATHS,              SCALAR_PATHS,             SHAPE_LEAVES,    "disks") \
   ROW(x, BEZIER,         4,  "curves",         IN_PATHS,              SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES,    "revolved curves") \
   ROW(x, TEXTURES,       5,  "textures",       IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "textures") \
-  ROW(x, MIRROR,         6,  "mirror",         IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "mirrors") \
-  ROW(x, GLASS,          7,  "glass",          IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "glass") \
   ROW(x, LENS,           8,  "lens",           IN_CAMERA | IN_PATH,   BATCHED,                  NO_GEOMETRY,     "depth of field") \
   ROW(x, SHADOW_RAYS,    9,  "shadow_rays",    IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "direct light by shadow rays") \
   ROW(x, ROUGH,          10, "rough",          IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "rough lobes") \
-  ROW(x, CONDUCTOR,      11, "conductor",      IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "conductors") \
-  ROW(x, PLASTIC,        12, "plastic",        IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "plastic") \
   ROW(x, ENVIRONMENT,    13, "environment",    IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "light from beyond the scene") \
   ROW(x, DELTA_LIGHTS,   14, "delta_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "point, spot and directional lights") \
   ROW(x, ABSORPTION,     15, "absorption",     IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "absorption in glass") \
@@ -60,7 +58,8 @@
   ROW(x, SLIVERS,        22, "needles",        IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "thin triangles") \
   ROW(x, NESTED,         23, "nested",         IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "dielectrics that touch or hold something") \
   ROW(x, WALLS,          24, "walls",          IN_CAMERA | IN_GATHER, BATCHED,                  NO_GEOMETRY,     "walls between photons and visible points") \
-  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "light from beyond the scene on infinite planes")
+  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "light from beyond the scene on infinite planes") \
+  MATERIAL_EFFECTS(ROW, x)
 
 #ifdef __cplusplus
 enum EffectBit : unsigned {

@@ -51,7 +51,7 @@ Material material_record(const MaterialSpec& spec, double outside_ior) {
 #define WRITE_COMMON_FIELDS(name)
 #define WRITE_OWN_FIELDS(name) \
   if (spec.kind == MaterialSpec::Kind::name) write_##name(spec, outside_ior, record);
-#define WRITE_ROW(x, NAME, number, name, effect, family, layers, fields, properties) WRITE_##fields(name)
+#define WRITE_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) WRITE_##fields(name)
   MATERIAL_TABLE(WRITE_ROW, )
   return record;
 }

@@ -105,16 +105,6 @@ std::string effect_reason<EFFECT_TEXTURES>(const Scene& scene) {
 }
 
 template <>
-std::string effect_reason<EFFECT_MIRROR>(const Scene& scene) {
-  return by_kind(scene, EFFECT_MIRROR);
-}
-
-template <>
-std::string effect_reason<EFFECT_GLASS>(const Scene& scene) {
-  return by_kind(scene, EFFECT_GLASS);
-}
-
-template <>
 std::string effect_reason<EFFECT_LENS>(const Scene& scene) {
   return scene.camera.aperture > 0 ? "/camera/aperture" : "";
 }
@@ -138,16 +128,6 @@ std::string effect_reason<EFFECT_SHADOW_RAYS>(const Scene& scene) {
 template <>
 std::string effect_reason<EFFECT_ROUGH>(const Scene& scene) {
   return by_material(scene, "roughness", [](const MaterialSpec& material) { return material.roughness > 0; });
-}
-
-template <>
-std::string effect_reason<EFFECT_CONDUCTOR>(const Scene& scene) {
-  return by_kind(scene, EFFECT_CONDUCTOR);
-}
-
-template <>
-std::string effect_reason<EFFECT_PLASTIC>(const Scene& scene) {
-  return by_kind(scene, EFFECT_PLASTIC);
 }
 
 template <>
@@ -232,5 +212,12 @@ template <>
 std::string effect_reason<EFFECT_HORIZON>(const Scene& scene) {
   return has_infinite_light(scene) ? by_shape(scene, EFFECT_PLANES) : "";
 }
+
+#define REASON_OF_MATERIAL(x, name, ...)                         \
+  template <>                                                    \
+  std::string effect_reason<EFFECT_##name>(const Scene& scene) { \
+    return by_kind(scene, EFFECT_##name);                        \
+  }
+MATERIAL_EFFECTS(REASON_OF_MATERIAL, )
 
 }  // namespace causticl

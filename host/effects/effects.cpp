@@ -12,8 +12,10 @@ namespace causticl {
 Effects find_effects(const Scene& scene) {
 #define EFFECT_ROW(x, name, bit, key, programs, scalar, geometry, text) \
   {EFFECT_##name, key, text, effect_reason<EFFECT_##name>(scene)},
-  return {EFFECT_TABLE(EFFECT_ROW, )};
+  Effects effects{EFFECT_TABLE(EFFECT_ROW, )};
 #undef EFFECT_ROW
+  std::sort(effects.begin(), effects.end(), [](const Effect& a, const Effect& b) { return a.bit < b.bit; });
+  return effects;
 }
 
 unsigned effect_bits(const Effects& effects) {

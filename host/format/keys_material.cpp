@@ -26,69 +26,52 @@ SceneKey roughness_key() {
           "square root of the GGX width alpha; 0 is perfectly smooth"};
 }
 
-/// The rows of `first`, those of every material, and the rows of `last`.
-std::vector<SceneKey> with_emission(std::vector<SceneKey> first, const std::vector<SceneKey>& last = {}) {
-  first.push_back({"emission", color(non_negative_number), 0, "emitted radiance: the surface is a light"});
-  first.push_back(
+SceneKey cauchy_key() {
+  return {"cauchy",
+          tuple("numbers, A and B of the index A + B / wavelength^2", {number(cauchy_a), number(cauchy_b)}),
+          optional, "dispersion: index A + B / wavelength^2", "square micrometres"};
+}
+
+/// A material's table: the keys that its row of MATERIAL_TABLE has, and those of every material.
+SceneTable table_of(const std::string& name, const std::string& text, unsigned keys) {
+  std::vector<SceneKey> rows;
+  std::vector<KeyRule> rules;
+  const auto add = [&](unsigned key, const SceneKey& row) {
+    if ((keys & key) != 0) rows.push_back(row);
+  };
+  add(KEY_COLOR, color_key());
+  add(KEY_ETA_K, {"eta", color(refractive_index), required, "real part of the index of refraction"});
+  add(KEY_ETA_K, {"k", color(extinction_coefficient), required, "imaginary part of the index of refraction"});
+  rows.push_back({"emission", color(non_negative_number), 0, "emitted radiance: the surface is a light"});
+  rows.push_back(
       {"two_sided", boolean(), MaterialSpec{}.two_sided, "emits on both sides, not on the front alone"});
-  first.insert(first.end(), last.begin(), last.end());
-  return first;
+  add(KEY_IOR, ior_key());
+  add(KEY_CAUCHY, cauchy_key());
+  add(KEY_ABSORPTION, {"absorption", color(non_negative_number), 0,
+                       "light keeps exp(-absorption distance) inside", "per unit length"});
+  add(KEY_ROUGHNESS, roughness_key());
+  add(KEY_PRIORITY, {"priority", integer(-1000000, 1000000), MaterialSpec{}.priority,
+                     "where dielectrics overlap, the higher one fills the place"});
+  if ((keys & KEY_CAUCHY) != 0)
+    rules.push_back(
+        {KeyRule::Relation::not_both, "ior", "cauchy", "cauchy", "expected \"ior\" or \"cauchy\", got both"});
+  return {"material_" + name, name, text, rows, rules};
 }
 
-const SceneTable& diffuse_keys() {
-  static const SceneTable table{"material_diffuse", "diffuse", "Lambert surface",
-                                with_emission({color_key()})};
-  return table;
-}
-
-const SceneTable& mirror_keys() {
-  static const SceneTable table{"material_mirror", "mirror", "perfect mirror", with_emission({color_key()})};
-  return table;
-}
-
-const SceneTable& glass_keys() {
-  static const SceneTable table{
-      "material_glass",
-      "glass",
-      "dielectric, smooth or rough, that may absorb and disperse",
-      with_emission(
-          {color_key()},
-          {ior_key(),
-           {"cauchy",
-            tuple("numbers, A and B of the index A + B / wavelength^2", {number(cauchy_a), number(cauchy_b)}),
-            optional, "dispersion: index A + B / wavelength^2", "square micrometres"},
-           {"absorption", color(non_negative_number), 0, "light keeps exp(-absorption distance) inside",
-            "per unit length"},
-           roughness_key(),
-           {"priority", integer(-1000000, 1000000), MaterialSpec{}.priority,
-            "where dielectrics overlap, the higher one fills the place"}}),
-      {{KeyRule::Relation::not_both, "ior", "cauchy", "cauchy", "expected \"ior\" or \"cauchy\", got both"}}};
-  return table;
-}
-
-const SceneTable& conductor_keys() {
-  static const SceneTable table{
-      "material_conductor", "conductor", "metal, smooth or rough",
-      with_emission(
-          {{"eta", color(refractive_index), required, "real part of the index of refraction"},
-           {"k", color(extinction_coefficient), required, "imaginary part of the index of refraction"}},
-          {roughness_key()})};
-  return table;
-}
-
-const SceneTable& plastic_keys() {
-  static const SceneTable table{"material_plastic", "plastic",
-                                "coated diffuse: a dielectric boundary, smooth or rough, over a Lambert base",
-                                with_emission({color_key()}, {ior_key(), roughness_key()})};
-  return table;
-}
+#define TABLE_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, keys, text) \
+  const SceneTable& name##_table() {                                                                \
+    static const SceneTable table = table_of(#name, text, keys);                                    \
+    return table;                                                                                   \
+  }
+MATERIAL_TABLE(TABLE_OF_ROW, )
+#undef TABLE_OF_ROW
 
 }  // namespace
 
 ValueType material_type() {
-#define KEYS_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) &name##_keys,
-  return object("material", {MATERIAL_TABLE(KEYS_OF_ROW, )});
-#undef KEYS_OF_ROW
+#define ADD_ROW(x, NAME, number, name, ...) &name##_table,
+  return object("material", {MATERIAL_TABLE(ADD_ROW, )});
+#undef ADD_ROW
 }
 
 }  // namespace causticl

@@ -10,8 +10,8 @@ namespace causticl {
 /// Whether the kind has one of the properties: LAMBERT, TRANSMITS, LAYERED, STORES_PHOTONS, BOUNDS_BODY, ...
 constexpr bool has_property(MaterialSpec::Kind kind, unsigned wanted) {
   switch (kind) {
-#define PROPERTY_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
-  case MaterialSpec::Kind::name:                                                           \
+#define PROPERTY_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
+  case MaterialSpec::Kind::name:                                                                \
     return (((family) | (layers) | (properties)) & wanted) != 0;
     MATERIAL_TABLE(PROPERTY_OF_ROW, )
 #undef PROPERTY_OF_ROW
@@ -22,8 +22,8 @@ constexpr bool has_property(MaterialSpec::Kind kind, unsigned wanted) {
 /// The effect of EFFECT_TABLE that stands for the kind; 0 for one that every program knows.
 constexpr unsigned effect_of(MaterialSpec::Kind kind) {
   switch (kind) {
-#define EFFECT_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
-  case MaterialSpec::Kind::name:                                                         \
+#define EFFECT_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
+  case MaterialSpec::Kind::name:                                                              \
     return effect;
     MATERIAL_TABLE(EFFECT_OF_ROW, )
 #undef EFFECT_OF_ROW
@@ -34,8 +34,8 @@ constexpr unsigned effect_of(MaterialSpec::Kind kind) {
 /// As scene files say it: "glass".
 constexpr const char* name_of(MaterialSpec::Kind kind) {
   switch (kind) {
-#define NAME_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
-  case MaterialSpec::Kind::name:                                                       \
+#define NAME_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
+  case MaterialSpec::Kind::name:                                                            \
     return #name;
     MATERIAL_TABLE(NAME_OF_ROW, )
 #undef NAME_OF_ROW
@@ -46,7 +46,7 @@ constexpr const char* name_of(MaterialSpec::Kind kind) {
 /// The effects of all kinds with one of the properties.
 constexpr unsigned effects_of_kinds(unsigned wanted) {
   unsigned effects = 0;
-#define EFFECTS_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) \
+#define EFFECTS_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   if (has_property(MaterialSpec::Kind::name, wanted)) effects |= effect;
   MATERIAL_TABLE(EFFECTS_OF_ROW, )
 #undef EFFECTS_OF_ROW

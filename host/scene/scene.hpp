@@ -27,7 +27,7 @@ struct TextureSpec {
 
 struct MaterialSpec {
   std::string pointer;  // JSON pointer, "/materials/gold", "/objects/3/texture"
-#define KIND_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties) name = number,
+#define KIND_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) name = number,
   enum class Kind : unsigned { MATERIAL_TABLE(KIND_OF_ROW, ) };
 #undef KIND_OF_ROW
   Kind kind = Kind::diffuse;
