@@ -24,17 +24,19 @@ INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
 
 #define WAYS_OF_LAMBERT(NAME, name, effect)
 #define WAYS_OF_REFLECTS(NAME, name, effect)
-#define WAYS_OF_TRANSMITS(NAME, name, effect)                       \
-  if (HAS(effect)) {                                                \
-    bool chosen = bsdf->kind == MATERIAL_##NAME;                    \
-    SpecularWays own = name##_ways(bsdf, f, eta);                   \
-    ways.mirrored_s = chosen ? own.mirrored_s : ways.mirrored_s;    \
-    ways.mirrored_g = chosen ? own.mirrored_g : ways.mirrored_g;    \
-    ways.refracted_s = chosen ? own.refracted_s : ways.refracted_s; \
-    ways.refracted_g = chosen ? own.refracted_g : ways.refracted_g; \
-    ways.cosine_t_s = chosen ? own.cosine_t_s : ways.cosine_t_s;    \
-    ways.cosine_t_g = chosen ? own.cosine_t_g : ways.cosine_t_g;    \
-    ways.eta = chosen ? own.eta : ways.eta;                         \
+#define WAYS_OF_TRANSMITS(NAME, name, effect)                                      \
+  if (HAS(effect)) {                                                               \
+    bool chosen = bsdf->kind == MATERIAL_##NAME;                                   \
+    SpecularWays own = name##_ways(bsdf, f, eta);                                  \
+    ways.mirrored_s = chosen ? own.mirrored_s : ways.mirrored_s;                   \
+    ways.mirrored_g = chosen ? own.mirrored_g : ways.mirrored_g;                   \
+    ways.refracted_s = chosen ? own.refracted_s : ways.refracted_s;                \
+    ways.refracted_g = chosen ? own.refracted_g : ways.refracted_g;                \
+    ways.cosine_t_s = chosen ? own.cosine_t_s : ways.cosine_t_s;                   \
+    ways.cosine_t_g = chosen ? own.cosine_t_g : ways.cosine_t_g;                   \
+    ways.eta = chosen ? own.eta : ways.eta;                                        \
+    ways.tint_cosine_g = chosen ? own.tint_cosine_g : ways.tint_cosine_g;          \
+    ways.through_cosine_g = chosen ? own.through_cosine_g : ways.through_cosine_g; \
   }
 #define WAYS_OF_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) \
   WAYS_OF_##family(NAME, name, effect)
@@ -55,7 +57,8 @@ INLINE BsdfSample adjoint_specular_sample(const Bsdf *bsdf, const Surface *surfa
   real3 normal = choose3(about_s, f.shading, f.geometric);
   real along = refracts ? cosine / ways.eta - cosine_t : 2 * cosine;
   real3 wo = add3(choose3(refracts, quotient3(d, ways.eta), d), scaled3(along, normal));
-  real3 tint = lobe_tint(bsdf, about_s ? f.cosine_s : ways.tint_cosine_g, refracts);
+  real seen_g = refracts ? ways.through_cosine_g : ways.tint_cosine_g;
+  real3 tint = lobe_tint(bsdf, about_s ? f.cosine_s : seen_g, refracts);
   BsdfSample sample = {unit3(wo), scaled3(all, tint), 0};
   return sample;
 }

@@ -73,7 +73,10 @@ INLINE real lobe_reflectance(const Bsdf *bsdf, const Surface *surface, real3 wi,
 }
 
 #define SELECT_LAMBERT(NAME, name, effect)
-#define SELECT_REFLECTS(NAME, name, effect)
+#define SELECT_REFLECTS(NAME, name, effect)                                                               \
+  if (HAS(effect))                                                                                        \
+    sample.weight =                                                                                       \
+        choose3(bsdf->kind == MATERIAL_##NAME, name##_tint(bsdf, -dot3(wi, n), false), sample.weight);
 #define SELECT_TRANSMITS(NAME, name, effect)                                                          \
   if (HAS(effect)) {                                                                                  \
     bool chosen = bsdf->kind == MATERIAL_##NAME;                                                      \

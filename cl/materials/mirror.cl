@@ -28,5 +28,6 @@ INLINE SpecularWays mirror_ways(ShadingFrame f) {
   ways.mirrored_g = reflects_about_shading(f.cosine_g, path_s, f.between) ? 0 : 1;
   ways.tint_cosine_g = path_s > 0 ? path_s : f.cosine_g;
   ways.refracted_s = 0, ways.refracted_g = 0, ways.cosine_t_s = 0, ways.cosine_t_g = 0, ways.eta = 1;
+  ways.through_cosine_g = f.cosine_g;
   return ways;
 }

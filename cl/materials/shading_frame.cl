@@ -32,4 +32,5 @@ typedef struct {
   real cosine_t_s, cosine_t_g;  // of the refracted directions
   real eta;                     // index beyond over that on the photon's side, by which refraction bends
   real tint_cosine_g;           // with which the path that is mirrored about Ng sees the surface
+  real through_cosine_g;        // and that which is refracted about Ng
 } SpecularWays;

@@ -1,11 +1,23 @@
 // What the host asks about a material, by its row of MATERIAL_TABLE.
 #pragma once
 
+#include <iterator>
+
 #include "scene/scene.hpp"
 #include "shared/effects.h"
 #include "shared/materials.h"
 
 namespace causticl {
+
+// Rows of MATERIAL_TABLE stand in the order of their numbers: readers take the one for the other.
+#define NUMBER_OF_ROW(x, NAME, number, ...) number,
+constexpr unsigned material_numbers[] = {MATERIAL_TABLE(NUMBER_OF_ROW, )};
+#undef NUMBER_OF_ROW
+static_assert([] {
+  for (unsigned i = 0; i < std::size(material_numbers); ++i)
+    if (material_numbers[i] != i) return false;
+  return true;
+}());
 
 /// Whether the kind has one of the properties: LAMBERT, TRANSMITS, LAYERED, STORES_PHOTONS, BOUNDS_BODY, ...
 constexpr bool has_property(MaterialSpec::Kind kind, unsigned wanted) {
