@@ -17,7 +17,7 @@ for scene in "${scenes[@]}"; do
   [ "$name" = cornell_box ] && size=300x300
   [[ "$scene" == */effects/* ]] && size=400x250
   [ "$name" = rough_metals ] && size=640x400
-  case "$name" in coloured_glass | prism | moving_balls | fog) size=480x300 passes=96 ;; esac
+  case "$name" in coloured_glass | prism | moving_balls | fog | leaded_window) size=480x300 passes=96 ;; esac
   [ "$name" = next_room ] && size=400x300 passes=96
   [ "$name" = glass_caustic ] && size=800x600 passes=96
   [ "$name" = tumbler ] && size=640x480 passes=192

@@ -4,3 +4,4 @@
 #include "materials/glass.cl"
 #include "materials/mirror.cl"
 #include "materials/plastic.cl"
+#include "materials/thin_glass.cl"

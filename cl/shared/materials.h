@@ -39,14 +39,17 @@
   ROW(x, CONDUCTOR, 3, conductor, EFFECT_CONDUCTOR, REFLECTS,  ONE_LOBE, OWN_FIELDS,    0u,             \
       KEY_ETA_K | KEY_ROUGHNESS, "metal, smooth or rough") \
   ROW(x, PLASTIC,   4, plastic,   EFFECT_PLASTIC,   REFLECTS,  LAYERED,  OWN_FIELDS,    STORES_PHOTONS, \
-      KEY_COLOR | KEY_IOR | KEY_ROUGHNESS, "coated diffuse: a dielectric boundary, smooth or rough, over a Lambert base")
+      KEY_COLOR | KEY_IOR | KEY_ROUGHNESS, "coated diffuse: a dielectric boundary, smooth or rough, over a Lambert base") \
+  ROW(x, THIN_GLASS, 5, thin_glass, EFFECT_THIN_GLASS, TRANSMITS, ONE_LOBE, COMMON_FIELDS, 0u, \
+      KEY_COLOR | KEY_IOR, "pane of glass without thickness: two faces and all reflections between them")
 
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define MATERIAL_EFFECTS(ROW, x) \
   ROW(x, MIRROR,    6,  "mirror",    IN_PATHS, BATCHED,       NO_GEOMETRY, "mirrors") \
   ROW(x, GLASS,     7,  "glass",     IN_PATHS, BATCHED,       NO_GEOMETRY, "glass") \
   ROW(x, CONDUCTOR, 11, "conductor", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "conductors") \
-  ROW(x, PLASTIC,   12, "plastic",   IN_PATHS, SCALAR_PATHS,  NO_GEOMETRY, "plastic")
+  ROW(x, PLASTIC,   12, "plastic",   IN_PATHS, SCALAR_PATHS,  NO_GEOMETRY, "plastic") \
+  ROW(x, THIN_GLASS, 26, "thin_glass", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "thin glass")
 
 #ifdef __cplusplus
 enum MaterialKind : unsigned {

@@ -12,8 +12,9 @@ constexpr NumberRange cauchy_a{1, 100, "an index A from 1 to 100"};
 constexpr NumberRange cauchy_b{0, 1, "B from 0 to 1 square micrometre"};
 
 SceneKey color_key() {
-  return {"color", either({color(unit_number), color_texture_type()}), MaterialSpec{}.color,
-          "reflectance; of glass a tint at every crossing"};
+  return {
+      "color", either({color(unit_number), color_texture_type()}), MaterialSpec{}.color,
+      "reflectance; of glass a tint at every crossing; of thin glass what one way through the inside leaves"};
 }
 
 SceneKey ior_key() {

@@ -19,12 +19,14 @@ struct FurnaceMaterial {
 std::vector<FurnaceMaterial> furnace_materials() {
   const MaterialSpec diffuse = make_material(Kind::diffuse, 1), mirror = make_material(Kind::mirror, 1),
                      plastic = make_material(Kind::plastic, 1);
-  MaterialSpec glass = make_material(Kind::glass, 1), dense = glass, thin = glass, textured = diffuse;
+  MaterialSpec glass = make_material(Kind::glass, 1), dense = glass, rare = glass, textured = diffuse;
   dense.ior = 2.5;
-  thin.ior = 0.7;
+  rare.ior = 0.7;
   textured.color_texture = 0;
-  return {{"diffuse", diffuse},   {"textured", textured}, {"mirror", mirror},  {"glass", glass},
-          {"dense glass", dense}, {"thin glass", thin},   {"plastic", plastic}};
+  return {{"diffuse", diffuse},   {"textured", textured},
+          {"mirror", mirror},     {"glass", glass},
+          {"dense glass", dense}, {"rare glass", rare},
+          {"plastic", plastic},   {"thin glass", make_material(Kind::thin_glass, 1)}};
 }
 
 /// A column of the picture for each material, with its ball, in a box of infinite planes of radiance 1:

@@ -29,8 +29,8 @@ inline constexpr BadScene bad_materials[] = {
     {"material is a number", "\"material\": \"white\"", "\"material\": 0",
      "scene.json:7: /objects/0/material: expected the name of a material, or an object, got 0"},
     {"unknown material type", "\"diffuse\", \"color\"", "\"difuse\", \"color\"",
-     "scene.json:5: /materials/white/type: expected \"diffuse\", \"mirror\", \"glass\", \"conductor\" or "
-     "\"plastic\", got \"difuse\"; did you mean \"diffuse\"?"},
+     "scene.json:5: /materials/white/type: expected \"diffuse\", \"mirror\", \"glass\", \"conductor\", "
+     "\"plastic\" or \"thin_glass\", got \"difuse\"; did you mean \"diffuse\"?"},
     {"conductor with a colour", "\"diffuse\", \"color\"",
      "\"conductor\", \"eta\": [1, 1, 1], \"k\": [3, 3, 3], \"color\"",
      "scene.json:5: /materials/white/color: unknown key \"color\"; use one of \"type\", \"eta\", \"k\", "

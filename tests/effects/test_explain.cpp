@@ -57,7 +57,7 @@ TEST_CASE("what can be left out of a scene is, and nothing else") {
   const unsigned replaceable = EFFECT_LENS | EFFECT_SHADOW_RAYS | EFFECT_TEXTURES | EFFECT_ROUGH |
                                EFFECT_MIRROR | EFFECT_GLASS | EFFECT_CONDUCTOR | EFFECT_PLASTIC |
                                EFFECT_ABSORPTION | EFFECT_DISPERSION | EFFECT_MOTION | EFFECT_MEDIUM |
-                               EFFECT_SMOOTH;
+                               EFFECT_SMOOTH | EFFECT_THIN_GLASS;
   for (const auto& [key, with, without, reason] : effect_scenes()) {
     INFO(key);
     const Scene scene = scene_from_text(with);

@@ -69,6 +69,7 @@ TEST_CASE("plates with bent shading normals reflect as much light by photons as 
       {"conductor", R"({"type": "conductor", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.2]})"},
       {"rough conductor",
        R"({"type": "conductor", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.2], "roughness": 0.3})"},
+      {"thin glass", R"({"type": "thin_glass", "ior": 2.5, "color": [0.3, 0.9, 0.6]})"},
       {"plastic", R"({"type": "plastic", "color": [0.8, 0.8, 0.8]})"},
       {"rough plastic", R"({"type": "plastic", "color": [0.8, 0.8, 0.8], "roughness": 0.3})"},
       {"diffuse", R"({"type": "diffuse", "color": [0.8, 0.8, 0.8]})"}};
@@ -90,4 +91,7 @@ TEST_CASE(
   check_agreement(plate_scene(obj, R"({"type": "glass", "ior": 1.5})", floor_below), "glass slab");
   check_agreement(plate_scene(obj, R"({"type": "glass", "ior": 1.5, "roughness": 0.2})", floor_below),
                   "rough slab");
+  check_agreement(plate_scene(folder.write("pane.obj", tilted_square(0, 45, 0)),
+                              R"({"type": "thin_glass", "color": [0.3, 0.9, 0.6]})", floor_below),
+                  "thin pane");
 }

@@ -57,6 +57,7 @@ inline const std::map<std::string, TableExample>& table_examples() {
       {"material_glass", {"/materials/white", R"({"type": "glass"})"}},
       {"material_conductor", {"/materials/white", R"({"type": "conductor", "eta": 1, "k": 3})"}},
       {"material_plastic", {"/materials/white", R"({"type": "plastic"})"}},
+      {"material_thin_glass", {"/materials/white", R"({"type": "thin_glass"})"}},
       {"texture_image", {"/materials/white/color", R"({"type": "image", "path": "5x4.png"})"}},
       {"texture_checker", {"/materials/white/color", R"({"type": "checker", "a": 0, "b": [1, 1, 1]})"}},
       {"base_texture_raw", {"/objects/1/texture", R"({"type": "raw", "color": 1, "material": "diffuse"})"}},
