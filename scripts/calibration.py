@@ -50,7 +50,7 @@ def has_hidden_caustics(scene):
     file = folder / f'{scene.stem}-explained.json'
     run('explain', scene, '--json', file)
     called = {e['key'] for e in json.loads(file.read_text())['effects'] if e['called_for']}
-    return 'delta_lights' in called and bool(called & {'mirror', 'glass', 'conductor', 'plastic'})
+    return 'delta_lights' in called and bool(called & {'mirror', 'glass', 'conductor', 'plastic', 'thin_glass'})
 
 
 def point(scene, passes, seed):

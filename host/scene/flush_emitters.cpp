@@ -38,7 +38,7 @@ double largest_coordinate(const Facet& facet) {
   return largest;
 }
 
-/// A flat emitter.
+/// A flat emitter, or a pane without thickness.
 struct FlatEmitter {
   std::vector<Vec3>
       points;  // inside, none at the edge of a facet: surfaces that meet there are beside each other
@@ -47,10 +47,13 @@ struct FlatEmitter {
   double coordinate = 0;  // the largest of its corners
 };
 
-/// The emitter that an object is, if it is lit and all its facets lie in one plane.
+/// Whether light goes through the surface itself, with no body behind it.
+bool is_pane(const MaterialSpec& material) { return is_transparent(material) && !bounds_body(material); }
+
+/// The emitter or pane that an object is, if all its facets lie in one plane.
 std::optional<FlatEmitter> flat_emitter(const Scene& scene, const Object& object) {
-  if (object.shape == Object::Shape::plane || object.shape == Object::Shape::sphere || !is_lit(scene, object))
-    return {};
+  if (object.shape == Object::Shape::plane || object.shape == Object::Shape::sphere) return {};
+  if (!is_lit(scene, object) && !is_pane(material_of(scene, object))) return {};
   FlatEmitter emitter;
   const auto facets = object_facets(scene, object);
   for (const Facet& facet : facets) {
@@ -162,14 +165,17 @@ std::vector<std::string> lift_flush_emitters(Scene& scene) {
     Heights heights;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       const Object& other = scene.objects[j];
-      if (j == i || emission_of(scene, other) > 0 || is_transparent(material_of(scene, other))) continue;
+      if (j == i || emission_of(scene, other) > 0) continue;
+      // A lamp in the face of a body is left to cl/scene/contact.cl, which knows nothing of panes.
+      const MaterialSpec& material = material_of(scene, other);
+      if (bounds_body(material) && !is_pane(material_of(scene, object))) continue;
       if (dot(object.motion - other.motion, emitter->normal) != 0) continue;
       add_heights(scene, j, *emitter, facets, pairs, heights);
     }
     if (!heights.any()) continue;
     const double gap = clear_of_it * heights.rounding;
-    const bool behind =
-        material_of(scene, object).two_sided && heights.lowest + heights.highest < -1e-6 * gap;
+    const bool either_side = material_of(scene, object).two_sided || is_pane(material_of(scene, object));
+    const bool behind = either_side && heights.lowest + heights.highest < -1e-6 * gap;
     const double shift = behind ? -gap - heights.highest : gap - heights.lowest;
     object.transform.translation = object.transform.translation + shift * emitter->normal;
     char distance[32];

@@ -36,12 +36,12 @@ struct MaterialSpec {
   bool alpha_diffuse = false;  // base format: texels with alpha > 0 are diffuse whatever `kind` says
   Color emission;              // radiance
   bool two_sided = false;      // emits on both sides
-  double ior = 1.5;            // glass, plastic: the index inside; Scene::outside_ior is around it
-  Color eta, k;                // conductor: real and imaginary part of the index
-  double roughness = 0;        // glass, conductor, plastic: the square root of GGX's alpha
-  Vec3 absorption;             // glass: per unit length inside
-  int priority = 0;            // glass: the higher one fills where dielectrics overlap
-  double dispersion = 0;       // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
+  double ior = 1.5;       // glass, plastic, thin_glass: the index inside; Scene::outside_ior is around it
+  Color eta, k;           // conductor: real and imaginary part of the index
+  double roughness = 0;   // glass, conductor, plastic: the square root of GGX's alpha
+  Vec3 absorption;        // glass: per unit length inside
+  int priority = 0;       // glass: the higher one fills where dielectrics overlap
+  double dispersion = 0;  // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
 };
 
 struct Object {
