@@ -85,3 +85,39 @@ TEST_CASE("a lamp beside or clear of a surface stays where it is") {
     CHECK(scene.objects.back().transform.translation.y == Approx(height).epsilon(1e-12));
   }
 }
+
+TEST_CASE("a pane of thin glass that lies in a wall is seen as one before it") {
+  const auto with_pane = [](double z) {
+    const std::string pane = R"({"type": "rectangle", "material": {"type": "thin_glass", "color": 0.1},
+      "transform": [{"type": "scale", "x": 4, "y": 2.6, "z": 1}, {"type": "shift", "x": 0, "y": 1.4, "z": )";
+    return room("disk", 2.69, plane_ceiling + ", " + pane + shortest(z) + "}]}");
+  };
+  const Scene before = with_pane(-1.99), flush = with_pane(-2);
+  CHECK(before.notices.empty());
+  CHECK(flush.notices.size() == 1);
+  const double expected = mean_of(before, Integrator::pt);
+  CHECK(expected < 0.95 * mean_of(room("disk", 2.69, plane_ceiling), Integrator::pt));
+  CHECK(mean_of(flush, Integrator::pt) == Approx(expected).epsilon(0.03));
+  CHECK(mean_of(flush, Integrator::sppm) == Approx(expected).epsilon(0.06));
+}
+
+TEST_CASE("lamps in panes and panes in faces of glass are moved, lamps in faces of glass are not") {
+  const auto notices = [](const std::string& lamp_material, const std::string& body) {
+    return scene_from_text(
+               R"({"camera": {"position": [0, 1, 9], "target": [0, 0, 0], "fov": 40}, "objects": [)" + body +
+               R"(, {"type": "rectangle", "material": )" + lamp_material +
+               R"(, "transform": [{"type": "shift", "x": 0.1, "y": 0, "z": 1}]},
+               {"type": "sphere", "radius": 0.1, "material": {"type": "diffuse", "emission": 1},
+                "transform": [{"type": "shift", "x": 0, "y": 3, "z": 0}]}]})")
+        .notices.size();
+  };
+  const std::string lamp = R"({"type": "diffuse", "emission": 1})", pane = R"({"type": "thin_glass"})";
+  const std::string box = R"({"type": "box", "size": [4, 4, 2], "material": {"type": "glass"}})",
+                    sheet = R"({"type": "rectangle", "material": {"type": "thin_glass"}, "transform": [
+                      {"type": "scale", "x": 4, "y": 4, "z": 1}, {"type": "shift", "x": 0, "y": 0, "z": 1}]})";
+  CHECK(notices(pane, box) ==
+        notices(pane, R"({"type": "sphere", "radius": 0.2, "material": {"type": "glass"}})") + 1);
+  CHECK(notices(lamp, sheet) == 1);
+  CHECK(notices(lamp, box) ==
+        notices(lamp, R"({"type": "sphere", "radius": 0.2, "material": {"type": "glass"}})"));
+}
