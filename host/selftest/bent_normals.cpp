@@ -84,9 +84,12 @@ std::vector<BentSurface> bent_surfaces() {
       Lobe{MATERIAL_PLASTIC, 0.3f, 1.5f, false}, Lobe{MATERIAL_THIN_GLASS, 0, 1.5f, false},
       Lobe{MATERIAL_THIN_GLASS, 0, 0.7f, false}};
   std::vector<BentSurface> surfaces;
-  for (const double degrees : {20.0, 45.0, 75.0})
-    for (const auto& lobe : lobes) {
-      InputRandom random(25, surfaces.size());
+  // Directions of 13 surfaces for each tilt, at which the mutations of the kernels show.
+  for (std::size_t steepness = 0; steepness < 3; ++steepness)
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+      const Lobe& lobe = lobes[i];
+      InputRandom random(25, 13 * steepness + i);
+      const double degrees = std::array{20.0, 45.0, 75.0}[steepness];
       const double tilt = degrees * std::numbers::pi / 180, turn = random.uniform(0, 2 * std::numbers::pi);
       const Vec3 normal{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
       surfaces.push_back({to_float4(normal, lobe.alpha),
@@ -144,7 +147,7 @@ CheckResult adjoint(CheckContext& context) {
 }  // namespace
 
 std::vector<Check> bent_normal_checks() {
-  return {{25, "photons are the adjoint of camera paths", 8, adjoint}};
+  return {{25, "photons are the adjoint of camera paths", 3, adjoint}};
 }
 
 }  // namespace causticl

@@ -89,10 +89,11 @@ struct RenderBudget {
 
 /// Renders with kernels for whatever any of these scenes holds: one set of programs, which take seconds each
 /// to compile, serves all of them.
-inline RenderResult render_for(CheckContext& context, const Scene& scene,
-                               const std::string& effects =
-                                   "triangles,spheres,planes,disks,textures,mirror,glass,plastic,shadow_rays,"
-                                   "environment,aimed_photons,smooth,needles,walls") {
+inline RenderResult render_for(
+    CheckContext& context, const Scene& scene,
+    const std::string& effects =
+        "triangles,spheres,planes,disks,textures,mirror,glass,plastic,thin_glass,shadow_rays,"
+        "environment,aimed_photons,smooth,needles,walls") {
   RenderOptions options;
   options.effects = effects;
   options.kernel_dir = context.kernel_dir;
