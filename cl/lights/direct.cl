@@ -66,15 +66,26 @@ INLINE LightSample light_sample_rough(const Scene *scene, const Bsdf *bsdf, cons
   return light;
 }
 
+// A point of a path at which direct light is sampled.
+typedef struct {
+  const Bsdf *bsdf;
+  const Surface *surface;
+  Interior interior;  // of the segment by which the path came, or with nested dielectrics that of the shadow ray
+  real3 wi;           // along which the path arrives
+  real3 n;            // the facing normal
+} LitPoint;
+
 // Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling. `behind` is the interior
 // beyond the surface, of use with nested dielectrics alone.
-static real3 direct_light_rough(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                                Interior behind, real3 wi, real3 n, real3 throughput, real4 random, uint *rays,
-                                volatile global Counters *counters) {
-  real3 g = surface->geometric_normal, origin;
+static real3 direct_light_rough(const Scene *scene, const LitPoint *point, Interior behind, real3 throughput,
+                                real4 random, uint *rays, volatile global Counters *counters) {
+  const Bsdf *bsdf = point->bsdf;
+  const Surface *surface = point->surface;
+  Interior interior = point->interior;
+  real3 wi = point->wi, g = surface->geometric_normal, origin;
   LightSample light = light_sample_rough(scene, bsdf, surface, dot3(wi, g) < 0 ? g : -g, random, &origin);
   if (!(max_component(light.weight) > 0)) return (real3)(0, 0, 0);
-  BsdfSample lobe = rough_evaluate(bsdf, surface, wi, n, light.direction);
+  BsdfSample lobe = rough_evaluate(bsdf, surface, wi, point->n, light.direction);
   if (!(lobe.pdf > 0) || !(max_component(lobe.weight) > 0)) return (real3)(0, 0, 0);
   Ray shadow = {origin, light.direction};
   if (nested(scene) && dot3(wi, g) * dot3(light.direction, g) > 0) interior = behind;
@@ -91,12 +102,13 @@ typedef struct {
   real3 reflected;  // radiance to the path if nothing is in the way; zero where no ray need tell
 } LightCandidate;
 
-// Light from emitter `chosen` at a Lambert point with facing normal n (`reflectance` = albedo / pi; the
-// boundary of coated diffuse lets a fraction of the light through). `wi` is the direction of the path that
-// found the point. With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
-INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const Bsdf *bsdf, const Surface *surface,
-                                        Interior interior, real3 wi, real3 n, real3 reflectance, real4 random,
-                                        bool weigh_bsdf) {
+// Light from emitter `chosen` at a Lambert point (`reflectance` = albedo / pi; the boundary of coated diffuse lets a
+// fraction of the light through). With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
+INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const LitPoint *point, real3 reflectance,
+                                              real4 random, bool weigh_bsdf) {
+  const Bsdf *bsdf = point->bsdf;
+  const Surface *surface = point->surface;
+  real3 wi = point->wi, n = point->n;
   // The light is sampled from where the shadow ray starts: at grazing incidence the step off the surface is
   // longer than the margin that keeps the ray from meeting the light itself.
   real3 g = surface->geometric_normal;
@@ -106,8 +118,8 @@ INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, c
   real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
   bool same_side = dot3(light.direction, g) * dot3(wi, g) < 0;
-  if (HAS(EFFECT_NESTED) && light_covered(scene, interior, origin, &light)) light.weight = (real3)(0, 0, 0);
-  attenuate_light(scene, interior, surface, &light);
+  if (HAS(EFFECT_NESTED) && light_covered(scene, point->interior, origin, &light)) light.weight = (real3)(0, 0, 0);
+  attenuate_light(scene, point->interior, surface, &light);
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
@@ -118,11 +130,10 @@ INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, c
 }
 
 // What of that is reflected to the path.
-static real3 direct_light(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Interior interior,
-                          real3 wi, real3 n, real3 reflectance, real4 random, bool weigh_bsdf, uint *rays,
-                          volatile global Counters *counters) {
-  LightCandidate light = sample_light_unoccluded(scene, emitter_choose(scene, random.x, random.w), bsdf, surface, interior,
-                                           wi, n, reflectance, random, weigh_bsdf);
+static real3 direct_light(const Scene *scene, const LitPoint *point, real3 reflectance, real4 random, bool weigh_bsdf,
+                          uint *rays, volatile global Counters *counters) {
+  uint chosen = emitter_choose(scene, random.x, random.w);
+  LightCandidate light = sample_light_unoccluded(scene, chosen, point, reflectance, random, weigh_bsdf);
   if (!(max_component(light.reflected) > 0) || occluded_along(scene, light.shadow, light.distance, rays, counters))
     return (real3)(0, 0, 0);
   return light.reflected;

@@ -1,11 +1,7 @@
 // Path tracing: light sampling and BSDF sampling combined by the power heuristic.
-#include "paths/camera.cl"
-#include "lights/direct.cl"
-#include "film/film.cl"
-#include "sampling/roulette.cl"
-#include "paths/path_splitting.cl"
 #include "core/work_group.cl"
-#include "traversal/primary_hits.cl"
+#include "film/film.cl"
+#include "paths/camera_path.cl"
 
 // The ray with which the path of this pass through pixel (x, y) begins, whose number among the pixel's is 0, as
 // primary_hits.cl asks for both integrators. `even`: as PathSampler.sobol is not 0. Of
@@ -23,101 +19,99 @@ INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool low_
   return camera_ray(&params->camera, params->width, params->height, x + place_x, y + place_y, film.z, film.w);
 }
 
-// Radiance along one camera path. Paths scatter at most params.max_depth times. `first` is where its primary hit is kept,
-// if it has been found.
+// Whether the medium scatters or absorbs the path before its hit: then *alive tells whether it goes on.
+INLINE bool path_in_medium(const Scene *scene, CameraPath *path, const PathSampler *sampler, Hit hit, bool *alive,
+                           volatile global Counters *counters) {
+  real distance;
+  real3 throughput = path->throughput;
+  bool interacts = medium_flight(&scene->medium, hit.t, path_random_at(sampler, path->bounce, DIM_MEDIUM).xy, &throughput,
+                                 &distance);
+  path->throughput = throughput;
+  if (!interacts) return false;
+  *alive = false;
+  if (path->bounce == path->max_depth) return true;
+  real3 position = path->ray.origin + distance * path->ray.direction;
+  path->throughput *= scene->medium.scattering;
+  path->prefix = prefix_after(path->prefix, false);
+  if (scene->emitter_count > 0) {
+    uint rays = path->rays;
+    real3 found = direct_light_medium(scene, position, path->ray.direction, path->throughput,
+                                      path_random_at(sampler, path->bounce, DIM_LIGHT), true, &rays, counters);
+    path->rays = rays;
+    radiance_add(&path->radiance, path->prefix, found);
+  }
+  real4 random = path_random_at(sampler, path->bounce, DIM_BSDF);
+  throughput = path->throughput;
+  *alive = path_survives(&throughput, path->bounce, random.w);
+  path->throughput = throughput;
+  real3 direction = phase_sample(scene->medium.g, path->ray.direction, random.xy);
+  path->bsdf_pdf = phase_density(scene->medium.g, dot(path->ray.direction, direction));
+  path->ray.origin = position;
+  path->ray.direction = direction;
+  return true;
+}
+
+// Adds the emission of the surface, weighted against light sampling.
+INLINE void path_emission(const Scene *scene, CameraPath *path, Hit hit, const Surface *surface,
+                          global const Material *material) {
+  real3 emission = emission_at(material, surface, path->ray.direction);
+  if (!(max_component(emission) > 0) || path->counted) return;
+  real weight = 1;
+  if (path->bsdf_pdf > 0) weight = emission_weight(scene, path->ray, hit, surface, material, path->bsdf_pdf);
+  radiance_add(&path->radiance, path->prefix, path->throughput * emission * weight);
+}
+
+// Adds the direct light that the surface sends on, of one emitter.
+INLINE void path_direct_light(const Scene *scene, CameraPath *path, const Boundary *boundary, const Bsdf *bsdf,
+                              const Surface *surface, const PathSampler *sampler, volatile global Counters *counters) {
+  if (scene->emitter_count == 0 || media_covered(scene, &boundary->media)) return;
+  if (is_lambert(bsdf->kind) && max_component(bsdf->color) > 0) {
+    LitPoint point = camera_path_lit_point(path, bsdf, surface);
+    uint rays = path->rays;
+    real3 found = direct_light(scene, &point, path->throughput * bsdf->color * INV_PI,
+                               path_random_at(sampler, path->bounce, DIM_LIGHT), true, &rays, counters);
+    path->rays = rays;
+    radiance_add(&path->radiance, path->prefix, found);
+  }
+  if (bsdf_is_rough(bsdf))
+    camera_path_light_rough(scene, path, boundary, bsdf, surface, path_random_at(sampler, path->bounce, DIM_LIGHT),
+                            counters);
+}
+
+// Radiance along one camera path. Paths scatter at most max_depth times. `first` is where its primary hit is kept, if it has
+// been found.
 OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit *first, const PathSampler *sampler,
                            uint max_depth, Radiance *result, uint *rays, volatile global Counters *counters) {
-  RandomStream stream = sampler->stream;
-  real3 throughput = (real3)(1, 1, 1);
-  Radiance radiance = radiance_none();
-  uint prefix = PREFIX_NO_DIFFUSE;
-  real bsdf_pdf = 0;  // of the last direction; 0 after the camera and specular surfaces
-  bool counted = false;  // the emission ahead is, by path_splitting.cl
-  Interior interior = interior_none();
   Boundary boundary;
-  boundary_at_camera(scene, &boundary, ray, &interior, counters);
-  for (uint bounce = 0; bounce <= max_depth; ++bounce) {
-    Hit hit = hit_none(INFINITY);
-    ++*rays;
-    bool did_hit = PRIMARY_HITS_FOUND && bounce == 0 ? primary_hit(first, &hit)
-                                              : media_closest(scene, &boundary.media, ray, &hit);
-    count_diagnostics(hit.diagnostics, counters);
-    if (HAS(EFFECT_MEDIUM) && medium_along(scene, ray, hit, did_hit, interior)) {
-      real distance;
-      if (medium_flight(&scene->medium, hit.t, path_random_at(sampler, bounce, DIM_MEDIUM).xy, &throughput, &distance)) {
-        if (bounce == max_depth) break;
-        real3 position = ray.origin + distance * ray.direction;
-        throughput *= scene->medium.scattering;
-        prefix = prefix_after(prefix, false);
-        if (scene->emitter_count > 0)
-          radiance_add(&radiance, prefix,
-                       direct_light_medium(scene, position, ray.direction, throughput,
-                                           path_random_at(sampler, bounce, DIM_LIGHT), true, rays, counters));
-        real4 random = path_random_at(sampler, bounce, DIM_BSDF);
-        if (!path_survives(&throughput, bounce, random.w)) break;
-        real3 direction = phase_sample(scene->medium.g, ray.direction, random.xy);
-        bsdf_pdf = phase_density(scene->medium.g, dot(ray.direction, direction));
-        ray.origin = position;
-        ray.direction = direction;
-        continue;
-      }
+  CameraPath path = camera_path_begin(scene, &boundary, ray, sampler->stream, max_depth, counters);
+  for (; path.bounce <= max_depth; ++path.bounce) {
+    Hit hit;
+    bool did_hit = camera_path_trace(scene, &path, &boundary, first, &hit, counters), alive;
+    if (HAS(EFFECT_MEDIUM) && medium_along(scene, path.ray, hit, did_hit, path.interior) &&
+        path_in_medium(scene, &path, sampler, hit, &alive, counters)) {
+      if (!alive) break;
+      continue;
     }
     if (!did_hit) {
-      if (HAS(EFFECT_ENVIRONMENT) && !counted)
-        radiance_add(&radiance, prefix, throughput * escaped_radiance(scene, ray.direction, bsdf_pdf));
+      camera_path_escape(scene, &path);
       break;
     }
     Surface surface;
-    geometry_surface(&scene->geometry, ray, hit, &surface);
-    boundary_arrive(scene, &boundary, ray, &hit, &surface, &interior, counters);
-    global const Material *material = scene->materials + surface.material;
-    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
-      if (!nested(scene)) interior = interior_before(interior, material, &surface, ray.direction);
-      throughput *= interior_transmittance(interior, hit.t);
-    }
+    global const Material *material = camera_path_arrive(scene, &path, &boundary, &hit, &surface, counters);
+    path_emission(scene, &path, hit, &surface, material);
+    if (path.bounce == max_depth) break;
 
-    real3 emission = emission_at(material, &surface, ray.direction);
-    if (max_component(emission) > 0 && !counted) {
-      real weight = 1;
-      if (bsdf_pdf > 0) weight = emission_weight(scene, ray, hit, &surface, material, bsdf_pdf);
-      radiance_add(&radiance, prefix, throughput * emission * weight);
-    }
-    if (bounce == max_depth) break;
-
-    Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-    if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
-    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
-                  &throughput);
-    real4 random = path_random_at(sampler, bounce, DIM_BSDF);
-    if (HAS(EFFECTS_OF_MATERIALS(TRANSMITS | LAYERED)))
-      counted = split_at_dielectric(scene, &bsdf, &surface, ray, random.z, throughput, interior, &boundary, prefix, stream,
-                           bounce, max_depth, counted, &radiance, rays, counters);
-    if (is_layered(bsdf.kind)) choose_lobe(&bsdf, ray.direction, facing_normal(&surface, ray.direction), random.z);
-    counted = counted && bsdf_is_specular(&bsdf);
-    prefix = prefix_after(prefix, bsdf_is_specular(&bsdf));
-    bool covered = media_covered(scene, &boundary.media);
-    if (is_lambert(bsdf.kind) && scene->emitter_count > 0 && max_component(bsdf.color) > 0 && !covered) {
-      real3 n = facing_normal(&surface, ray.direction);
-      radiance_add(&radiance, prefix,
-                   direct_light(scene, &bsdf, &surface, interior, ray.direction, n, throughput * bsdf.color * INV_PI,
-                                path_random_at(sampler, bounce, DIM_LIGHT), true, rays, counters));
-    }
-    if (bsdf_is_rough(&bsdf) && scene->emitter_count > 0 && !covered) {
-      real3 n = facing_normal(&surface, ray.direction);
-      radiance_add(&radiance, prefix,
-                   direct_light_rough(scene, &bsdf, &surface, interior, boundary_behind(scene, &boundary), ray.direction, n, throughput,
-                                      path_random_at(sampler, bounce, DIM_LIGHT), rays, counters));
-    }
-    BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, random, true);
-    throughput *= next.weight;
-    if (!path_survives(&throughput, bounce, random.w)) break;
-    bsdf_pdf = next.pdf;
-    if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) interior = interior_after(interior, material, &surface, next.direction);
-    ray.origin = boundary_depart(scene, &boundary, &surface, ray.direction, next.direction);
-    if (nested(scene)) interior = interior_of_stack(scene, &boundary.media.stack);
-    ray.direction = next.direction;
+    real4 random = path_random_at(sampler, path.bounce, DIM_BSDF);
+    Bsdf bsdf = camera_path_bsdf(scene, &path, &boundary, material, &surface, random.z, counters);
+    path.counted = path.counted && bsdf_is_specular(&bsdf);
+    path.prefix = prefix_after(path.prefix, bsdf_is_specular(&bsdf));
+    path_direct_light(scene, &path, &boundary, &bsdf, &surface, sampler, counters);
+    BsdfSample next = bsdf_sample(&bsdf, &surface, path.ray.direction, random, true);
+    path.bsdf_pdf = next.pdf;
+    if (!camera_path_depart(scene, &path, &boundary, material, &surface, next, random.w)) break;
   }
-  *result = radiance;
+  *result = path.radiance;
+  *rays += path.rays;
 }
 
 // Adds sample number params.pass of a pixel, which is path `index` of the chunk, to the film; *rays is the number of rays

@@ -14,16 +14,29 @@
 #define SPLITTING_VERTICES 4u
 #endif
 
-// Adds what lies at the end of the lobe that lobe_number draws at `surface`, and of the likely lobes from there on.
-// `carried` is the path's throughput times the probability of that lobe.
-OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const Surface *from, Ray ray, real lobe_number,
-                             real3 branch_throughput, Interior interior, const Boundary *at, RandomStream stream,
-                             uint bounce, uint max_depth, Radiance *radiance, uint *rays,
-                             volatile global Counters *counters) {
+// A vertex of a camera path, as it stands before the path goes on from there.
+typedef struct {
+  const Surface *surface;
+  const Boundary *boundary;
+  Ray ray;          // by which the path came
+  real3 throughput;
+  Interior interior;
+  uint prefix, bounce, max_depth;
+  RandomStream stream;
+} PathVertex;
+
+// Adds what lies at the end of the lobe of `lobe` that lobe_number draws at a vertex, and of the likely lobes from there on.
+// `branch_throughput` is the path's throughput times the probability of that lobe.
+OUTLINE void trace_unlikely_branch(const Scene *scene, const PathVertex *from, const Bsdf *lobe, real lobe_number,
+                                   real3 branch_throughput, Radiance *radiance, uint *rays,
+                                   volatile global Counters *counters) {
   Bsdf bsdf = *lobe;
-  Surface surface = *from;
+  Surface surface = *from->surface;
   Boundary boundary;
-  if (nested(scene)) boundary = *at;
+  if (nested(scene)) boundary = *from->boundary;
+  Ray ray = from->ray;
+  Interior interior = from->interior;
+  uint bounce = from->bounce;
   for (;;) {
     BsdfSample next = bsdf_sample(&bsdf, &surface, ray.direction, (real4)(0, 0, lobe_number, 0), true);
     branch_throughput *= next.weight;
@@ -50,16 +63,16 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
       branch_throughput *= interior_transmittance(interior, hit.t);
     }
     radiance_add(radiance, PREFIX_NO_DIFFUSE, branch_throughput * emission_at(material, &surface, ray.direction));
-    if (bounce == max_depth) return;
+    if (bounce == from->max_depth) return;
     bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
     if (HAS(EFFECT_TEXTURES)) make_finite(&bsdf.color, counters);
     // Which decides whether a lobe is smooth.
-    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf,
+    boundary_bsdf(scene, &boundary, material, &surface, ray.direction, random_at(from->stream, bounce, DIM_CHANNEL).x, &bsdf,
                   &branch_throughput);
     if (!bsdf_is_specular(&bsdf) || is_layered(bsdf.kind)) return;
     // What absorbing glass reflects to and fro is not worth following for long.
     real survival = fmin(1000 * max_component(branch_throughput), (real)1);
-    if (random_at(stream, bounce, DIM_BRANCH).x >= survival) return;
+    if (random_at(from->stream, bounce, DIM_BRANCH).x >= survival) return;
     branch_throughput /= survival;
     if (transmits(bsdf.kind)) {
       real reflectance = lobe_reflectance(&bsdf, &surface, ray.direction, facing_normal(&surface, ray.direction));
@@ -72,14 +85,12 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const Bsdf *lobe, const S
 // Looks along the unlikely lobe at a vertex of a camera path, before the path chooses its own by `lobe_number`.
 // `counted` is whether looks have counted the emission that the path has ahead, as it comes to the vertex; returns
 // whether they have as it leaves. After a vertex of coated diffuse that became Lambert it is of no meaning.
-INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surface *surface, Ray ray, real lobe_number,
-                       real3 throughput, Interior interior, const Boundary *boundary, uint prefix,
-                       RandomStream stream, uint bounce, uint max_depth, bool counted, Radiance *radiance, uint *rays,
-                       volatile global Counters *counters) {
+INLINE bool split_at_dielectric(const Scene *scene, const PathVertex *at, const Bsdf *bsdf, real lobe_number, bool counted,
+                                Radiance *radiance, uint *rays, volatile global Counters *counters) {
   bool through = transmits(bsdf->kind) && !bsdf_is_rough(bsdf), layered = is_layered(bsdf->kind) && !bsdf_is_rough(bsdf);
   if (!through && !layered) return counted && bsdf_is_specular(bsdf);
   // In a medium the look would be a path of its own, which may be scattered.
-  bool looks = scene->emission_met && prefix == PREFIX_NO_DIFFUSE && bounce < SPLITTING_VERTICES;
+  bool looks = scene->emission_met && at->prefix == PREFIX_NO_DIFFUSE && at->bounce < SPLITTING_VERTICES;
   if (HAS(EFFECT_MEDIUM) && max_component(scene->medium.extinction) > 0) looks = false;
   // The boundary of coated diffuse is looked along, likely or not, and weighs what it reflects.
   real probability = 1, toward = 0;
@@ -87,14 +98,14 @@ INLINE bool split_at_dielectric(const Scene *scene, const Bsdf *bsdf, const Surf
   Bsdf lobe = *bsdf;
   if (layered) lobe.color = (real3)(1, 1, 1);
   if (through) {
-    real reflectance = lobe_reflectance(bsdf, surface, ray.direction, facing_normal(surface, ray.direction));
+    real3 d = at->ray.direction;
+    real reflectance = lobe_reflectance(bsdf, at->surface, d, facing_normal(at->surface, d));
     bool reflects = reflectance < (real)0.5f;
     probability = fmin(reflectance, 1 - reflectance);
     toward = reflects ? 0 : 1;
     taken = (lobe_number < reflectance) == reflects;
   }
   if (looks && probability > 0)
-    trace_unlikely_branch(scene, &lobe, surface, ray, toward, throughput * probability, interior, boundary, stream,
-                          bounce, max_depth, radiance, rays, counters);
+    trace_unlikely_branch(scene, at, &lobe, toward, at->throughput * probability, radiance, rays, counters);
   return taken ? looks : counted;
 }

@@ -74,7 +74,7 @@ INLINE bool diffuse_vertex_reflects(const DiffuseVertices *r, uint i) {
   return max(r->weight[0][i], max(r->weight[1][i], r->weight[2][i])) > 0;
 }
 
-// What camera_path() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
+// What visible_at_surface() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
 INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, DiffuseVertices *r, uint i, uint sobol) {
   Ray ray = diffuse_vertex_ray(r, i);
   Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
@@ -130,8 +130,8 @@ INLINE void diffuse_vertex_light(const Scene *scene, DiffuseVertices *r, uint i)
   real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
   Bsdf bsdf;
   bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
-  LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &bsdf, &surface, interior_none(),
-                                           diffuse_vertex_ray(r, i).direction, n, weight, random, false);
+  LitPoint point = {&bsdf, &surface, interior_none(), diffuse_vertex_ray(r, i).direction, n};
+  LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &point, weight, random, false);
   real3 o = light.shadow.origin, d = light.shadow.direction, l = light.reflected;
   r->origin[0][i] = o.x, r->origin[1][i] = o.y, r->origin[2][i] = o.z;
   r->direction[0][i] = d.x, r->direction[1][i] = d.y, r->direction[2][i] = d.z;
