@@ -155,17 +155,7 @@ void add_compare_options(CLI::App& app, Options& options) {
   app.add_option("--json", options.json, "write the numbers as one JSON object")->type_name("FILE");
 }
 
-}  // namespace
-
-Options parse_options(int argc, const char* const* argv) {
-  Options options;
-  Texts texts;
-  CLI::App app("CaustiCL: a progressive photon mapper and path tracer for OpenCL devices", "causticl");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "causticl " CAUSTICL_VERSION);
-  app.footer(exit_codes);
-  app.get_formatter()->column_width(30);
-
+void add_commands(CLI::App& app, Options& options, Texts& texts) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene to image files");
   add_scene_options(render, options, texts);
   add_output_options(render, options, texts);
@@ -213,27 +203,16 @@ Options parse_options(int argc, const char* const* argv) {
   schema.footer(
       "An editor that knows the schema completes keys and marks mistakes while you write. In a scene,\n"
       "\"$schema\": \"scene.schema.json\" names the file that holds it.");
+}
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    options.text = app.help();
-    return options;
-  } catch (const CLI::CallForVersion& version) {
-    options.text = std::string(version.what()) + "\n";
-    return options;
-  } catch (const CLI::ParseError& error) {
-    throw UserError(command_line_fault(error, app));
-  }
+constexpr std::pair<const char*, Options::Command> commands[]{
+    {"render", Options::Command::render},   {"devices", Options::Command::devices},
+    {"info", Options::Command::info},       {"schema", Options::Command::schema},
+    {"explain", Options::Command::explain}, {"compare", Options::Command::compare},
+    {"study", Options::Command::study},     {"selftest", Options::Command::selftest}};
 
-  options.command = render.parsed()    ? Options::Command::render
-                    : devices.parsed() ? Options::Command::devices
-                    : info.parsed()    ? Options::Command::info
-                    : schema.parsed()  ? Options::Command::schema
-                    : explain.parsed() ? Options::Command::explain
-                    : compare.parsed() ? Options::Command::compare
-                    : study.parsed()   ? Options::Command::study
-                                       : Options::Command::selftest;
+/// From words to values.
+void read_texts(const Texts& texts, Options& options) {
   options.selftest.threads = options.threads;
   options.selftest.kernel_dir = options.kernel_dir;
   if (!texts.integrator.empty())
@@ -252,6 +231,33 @@ Options parse_options(int argc, const char* const* argv) {
     const auto equals = text.find('=');
     options.scene_options.overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  CLI::App app("CaustiCL: a progressive photon mapper and path tracer for OpenCL devices", "causticl");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "causticl " CAUSTICL_VERSION);
+  app.footer(exit_codes);
+  app.get_formatter()->column_width(30);
+  add_commands(app, options, texts);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.text = app.help();
+    return options;
+  } catch (const CLI::CallForVersion& version) {
+    options.text = std::string(version.what()) + "\n";
+    return options;
+  } catch (const CLI::ParseError& error) {
+    throw UserError(command_line_fault(error, app));
+  }
+  for (const auto& [name, command] : commands)
+    if (app.got_subcommand(name)) options.command = command;
+  read_texts(texts, options);
   return options;
 }
 
