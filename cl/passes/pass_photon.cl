@@ -21,12 +21,19 @@ INLINE RandomStream stream_random(const Params *params, const PhotonStream *batc
   return stream;
 }
 
+// By what photons are led where they are of use.
+typedef struct {
+  const Guide *guide;
+  const Aim *aim;
+} Guidance;
+
 // Starts `count` photons of the pass, from number `first` on, behind the `alive` first of the batch.
-OUTLINE void stream_emit(const Scene *from, const Params *settings, const Guide *guide, const Aim *aims, uint first,
-                       uint alive, uint count, PhotonStream *batch, volatile global Counters *counters) {
+OUTLINE void stream_emit(const Scene *from, const Params *settings, Guidance by, uint first, uint alive, uint count,
+                         PhotonStream *batch, volatile global Counters *counters) {
+  const Guide *guide = by.guide;
   const Scene scene = *from;
   const Params params = *settings;
-  global const ProjectionCell *cells = aims->cells;
+  global const ProjectionCell *cells = by.aim->cells;
   global const EmissionCell *emission = guide->emission;
   const uint emission_cells = guide->emission_cells;
   for (uint i = alive; i < alive + count; ++i) {
@@ -208,15 +215,15 @@ OUTLINE uint stream_compact(uint first, uint end, PhotonStream *batch) {
 
 // Traces photons [first, end) of the pass, a batch of them one event at a time; new ones take the places of those that
 // have ended. Returns the number of rays.
-OUTLINE uint stream_paths(const Scene *scene, const Params *params, const Guide *guide, const Aim *aim, uint first,
-                        uint end, global Photon *photons, volatile global Counters *counters) {
+OUTLINE uint stream_paths(const Scene *scene, const Params *params, Guidance by, uint first, uint end,
+                          global Photon *photons, volatile global Counters *counters) {
   PhotonStream batch;
   uint rays = 0, alive = 0;
   if (params->max_depth == 0) return 0;
   while (first < end || alive > 0) {
     uint room = (STREAM_CAPACITY - alive) / STREAM_STEP * STREAM_STEP, fresh = min(end - first, room);
     if (fresh > 0 && (room >= PATH_REGENERATION || alive == 0)) {
-      stream_emit(scene, params, guide, aim, first, alive, stream_padded(fresh), &batch, counters);
+      stream_emit(scene, params, by, first, alive, stream_padded(fresh), &batch, counters);
       first += fresh;
       alive = stream_compact(alive, alive + fresh, &batch);
     }
@@ -227,9 +234,9 @@ OUTLINE uint stream_paths(const Scene *scene, const Params *params, const Guide 
     for (uint i = alive; i < padded; ++i) batch.primitive[i] = HIT_NONE;
     stream_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &batch, counters);
     if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_PILOT_PATHS)
-      stream_guide(guide, params, alive, &batch, counters);
+      stream_guide(by.guide, params, alive, &batch, counters);
     if (HAS(EFFECT_AIMED_PHOTONS) && params->photon_role == PHOTONS_FOR_PROJECTION_MAP)
-      stream_learn(scene, params, &batch, alive, aim);
+      stream_learn(scene, params, &batch, alive, by.aim);
     else if (!HAS(EFFECT_GUIDED_PHOTONS) || params->photon_role != PHOTONS_TO_LEARN_BY)
       stream_deposit(alive, &batch, photons, params->photon_capacity, counters);
     for (uint i = 0; i < alive; ++i) ++batch.bounce[i];
@@ -261,7 +268,8 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
   uint end = first + min(count, params.photon_count - first);
   Guide guide = {seeds, accepted, visibility, cells, emission, emission_cells};
   Aim aim = {projection_cells, projection_deposits};
-  uint rays = stream_paths(&scene, &params, &guide, &aim, params.first_photon + first, params.first_photon + end, photons,
+  Guidance guidance = {&guide, &aim};
+  uint rays = stream_paths(&scene, &params, guidance, params.first_photon + first, params.first_photon + end, photons,
                          counters);
   count_rays(rays, counters);
 }

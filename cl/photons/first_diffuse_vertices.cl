@@ -46,15 +46,26 @@ INLINE Ray diffuse_vertex_ray(const DiffuseVertices *r, uint i) {
   return ray;
 }
 
-// Makes path i one that meets a diffuse surface at `hit`.
-INLINE void diffuse_vertices_put(DiffuseVertices *r, uint i, uint pixel, uint sample, Ray ray, Hit hit, real3 throughput,
-                          real3 radiance, uint bounce, bool counted) {
+// A path as it comes to a diffuse surface.
+typedef struct {
+  Ray ray;
+  Hit hit;
+  real3 throughput, radiance;
+  uint bounce;
+  bool counted;
+} DiffuseArrival;
+
+// Makes path i one that arrives so.
+INLINE void diffuse_vertices_put(DiffuseVertices *r, uint i, uint pixel, uint sample, const DiffuseArrival *at) {
+  Ray ray = at->ray;
+  Hit hit = at->hit;
+  real3 throughput = at->throughput, radiance = at->radiance;
   r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
   r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
   r->t[i] = hit.t, r->u[i] = hit.u, r->v[i] = hit.v, r->primitive[i] = hit.primitive;
   r->throughput[0][i] = throughput.x, r->throughput[1][i] = throughput.y, r->throughput[2][i] = throughput.z;
   r->radiance[0][i] = radiance.x, r->radiance[1][i] = radiance.y, r->radiance[2][i] = radiance.z;
-  r->counted[i] = counted, r->bounce[i] = bounce, r->pixel[i] = pixel, r->sample[i] = sample;
+  r->counted[i] = at->counted, r->bounce[i] = at->bounce, r->pixel[i] = pixel, r->sample[i] = sample;
 }
 
 // Makes path i that before it once more.

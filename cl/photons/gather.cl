@@ -91,10 +91,20 @@ OUTLINE int8 beside_walls(global const PhotonBlock *photons, int8 inside, const 
   return vload8(0, kept);
 }
 
-// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of `point` and landed on the same side to the
-// lanes, and these to `sum` where they are full. `walls` are those near the point, or null.
-INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, real3 point, uint normal, real radius2,
+// A point around which photons are gathered.
+typedef struct {
+  real3 position;
+  uint normal;   // packed, of the side on which photons count
+  real radius2;  // within which they do
+} GatherPoint;
+
+// Adds photons begin to end - 1 of the map that lie within the radius of `point` and landed on the same side to the lanes,
+// and these to `sum` where they are full. `walls` are those near the point, or null.
+INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, const GatherPoint *point,
                          const NearWalls *walls, GatherLanes *lanes, Gathered *sum) {
+  real3 position = point->position;
+  uint normal = point->normal;
+  real radius2 = point->radius2;
   const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   real near_radius2 = radius2 / 4;
   uint block = begin / 8, blocks_end = begin < end ? (end + 7) / 8 : block;
@@ -108,9 +118,9 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
     lanes->steps += steps;
     for (; block < stop; ++block) {
       global const PhotonBlock *photons = sorted + block;
-      real8 dx = vload8(0, photons->position[0]) - point.x;
-      real8 dy = vload8(0, photons->position[1]) - point.y;
-      real8 dz = vload8(0, photons->position[2]) - point.z;
+      real8 dx = vload8(0, photons->position[0]) - position.x;
+      real8 dy = vload8(0, photons->position[1]) - position.y;
+      real8 dz = vload8(0, photons->position[2]) - position.z;
       int8 packed = as_int8(vload8(0, photons->normal));
       real8 distance2 = dx * dx + dy * dy + dz * dz;
       int8 inside = mask_lanes(distance2 <= radius2) & same_side(packed, normal) & (number < end - begin);
@@ -216,13 +226,13 @@ INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
 }
 
 // Adds to `sum` what gather_range, or gather_range_medium where there is a `segment`, finds in every bucket that may
-// hold a photon within `reach` of `centre` along each axis, once: a window of at most n cubes along an axis of n
+// hold a photon within `reach` of the point along each axis, once: a window of at most n cubes along an axis of n
 // buckets has no two in one bucket.
-OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 centre,
-                            real3 reach, uint normal, real radius2, const MediumSegment *segment,
-                            const NearWalls *walls, Gathered *sum) {
+OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, const GatherPoint *at,
+                            real3 reach, const MediumSegment *segment, const NearWalls *walls, Gathered *sum) {
+  const GatherPoint point = *at;
   GatherLanes lanes = gather_lanes_empty();
-  uint4 first, number = gather_window(grid, centre, reach, &first);
+  uint4 first, number = gather_window(grid, point.position, reach, &first);
   // Buckets along x are neighbours in memory: a row is one range, or two where it wraps around.
   uint first_end = min(first.x + number.x, grid.nx), wrapped = first.x + number.x - first_end;
   for (uint k = 0; k < number.z; ++k) {
@@ -233,11 +243,11 @@ OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const P
       for (uint part = 0; part < (wrapped != 0 ? 2u : 1u); ++part) {
         uint begin = part == 0 ? row[first.x] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && segment)
-          gather_range_medium(sorted, begin, end, segment, radius2, sum);
+          gather_range_medium(sorted, begin, end, segment, point.radius2, sum);
         else if (HAS(EFFECT_WALLS) && walls)
-          gather_range(sorted, begin, end, centre, normal, radius2, walls, &lanes, sum);
+          gather_range(sorted, begin, end, &point, walls, &lanes, sum);
         else
-          gather_range(sorted, begin, end, centre, normal, radius2, 0, &lanes, sum);
+          gather_range(sorted, begin, end, &point, 0, &lanes, sum);
       }
     }
   }
@@ -256,7 +266,8 @@ INLINE Gathered gather_beside(Grid grid, global const uint *starts, global const
                               uint normal, real radius2, const NearWalls *walls) {
   Gathered sum = gathered_none();
   real radius = sqrt(radius2);
-  gather_buckets(grid, starts, sorted, point, (real3)(radius, radius, radius), normal, radius2, 0, walls, &sum);
+  GatherPoint at = {point, normal, radius2};
+  gather_buckets(grid, starts, sorted, &at, (real3)(radius, radius, radius), 0, walls, &sum);
   return sum;
 }
 
@@ -278,9 +289,8 @@ INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const
   for (uint i = 0; i < steps; ++i) {
     segment.from = i * step;
     segment.to = i + 1 == steps ? length : (i + 1) * step;
-    real3 centre = segment.begin + (segment.from + step / 2) * segment.direction;
-    gather_buckets(grid, starts, sorted, centre, fabs(segment.direction) * (step / 2) + radius, 0, radius2,
-                   &segment, 0, &sum);
+    GatherPoint at = {segment.begin + (segment.from + step / 2) * segment.direction, 0, radius2};
+    gather_buckets(grid, starts, sorted, &at, fabs(segment.direction) * (step / 2) + radius, &segment, 0, &sum);
   }
   return sum;
 }

@@ -35,7 +35,8 @@ INLINE uint photon_record(real3 position, uint normal, real3 flux, uint prefix, 
 
 // Whether the medium scatters or absorbs the photon before its hit; then *events tells what came of it.
 INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStream stream, uint bounce, Hit hit,
-                             bool shadow_rays, PhotonState *photon, Photon *record, uint *events) {
+                             PhotonState *photon, Photon *record, uint *events) {
+  bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   if (!medium_along(scene, photon->ray, hit, hit.primitive != HIT_NONE, photon->interior)) return false;
   real before = max_component(photon->flux), distance;
   if (!medium_flight(&scene->medium, hit.t, random_at(stream, bounce, DIM_MEDIUM).xy, &photon->flux, &distance))
@@ -69,6 +70,16 @@ INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 d
   }
 }
 
+// The record of a photon of this flux that the surface keeps. Returns EVENT_* bits.
+INLINE uint photon_deposit(const LitPoint *at, const PhotonState *photon, real3 flux, real4 dither, Photon *record) {
+  const Surface *surface = at->surface;
+  real3 deposited = scaled3(shading_normal_arrival(surface, at->wi), flux);
+  if (is_layered(at->bsdf->kind)) deposited = scaled3(base_transmittance(at->bsdf, -dot3(at->wi, at->n)), deposited);
+  real side = dot3(surface->geometric_normal, at->wi) < 0 ? 1 : -1;
+  uint normal = normal_pack(scaled3(side, surface->geometric_normal)) | photon->mark;
+  return photon_record(surface->position, normal, deposited, photon->prefix, dither, record);
+}
+
 // Takes a photon from its hit number `bounce` to its next ray. Returns EVENT_* bits; what `photon` and
 // `record` hold where these say that it ends, or leaves no record, is of no use. Without a medium only where
 // something is hit.
@@ -76,7 +87,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
                          PhotonState *photon, Photon *record) {
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
-  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, bounce, hit, shadow_rays, photon, record, &events))
+  if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, bounce, hit, photon, record, &events))
     return events;
   if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
   real3 direction = photon->ray.direction;
@@ -115,11 +126,8 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   bool deposits_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) deposits_here = deposits_here && !counted;
   if (deposits_here) {
-    real3 deposited = scaled3(shading_normal_arrival(&surface, direction), flux);
-    if (layered) deposited = scaled3(base_transmittance(&bsdf, -dot3(direction, n)), deposited);
-    real side = dot3(surface.geometric_normal, direction) < 0 ? 1 : -1;
-    uint stored = photon_record(surface.position, normal_pack(scaled3(side, surface.geometric_normal)) | photon->mark, deposited,
-                                photon->prefix, random_at(stream, bounce, DIM_QUANTISE), record);
+    LitPoint at = {&bsdf, &surface, photon->interior, direction, n};
+    uint stored = photon_deposit(&at, photon, flux, random_at(stream, bounce, DIM_QUANTISE), record);
     events |= counted ? EVENT_DEPOSITED_ELSEWHERE : stored;
   }
   bool alive = !(diffuse && black) && bounce + 1 != params->max_depth;

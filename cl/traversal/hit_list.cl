@@ -38,12 +38,12 @@ INLINE void shape_hits(const Geometry *g, uint index, Ray ray, real t_max, const
     hit_list_add(list, filter, g->shapes[index].material, HIT_SHAPE | index, hit);
 }
 
-INLINE void leaf_hits(const Geometry *g, uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, real t_max,
-                      const HitFilter *filter, HitList *list) {
+INLINE void leaf_hits(const Geometry *g, uint child, uint count, const TreeRay *r, real t_max, const HitFilter *filter,
+                      HitList *list) {
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     real8 t, weight_1, weight_2;
-    if (HAS(EFFECT_TRIANGLES) && block_intersect(g->blocks + i, triangle, t_max, &t, &weight_1, &weight_2)) {
+    if (HAS(EFFECT_TRIANGLES) && block_intersect(g->blocks + i, r->triangle, t_max, &t, &weight_1, &weight_2)) {
       real distance[8], u[8], v[8];
       vstore8(t, 0, distance);
       vstore8(weight_1, 0, u);
@@ -56,8 +56,8 @@ INLINE void leaf_hits(const Geometry *g, uint child, uint count, Ray ray, Triang
       }
     }
     if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES))
-      for (uint did_hit = block_shapes(g->blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u)
-        shape_hits(g, g->blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE, ray, t_max, filter, list);
+      for (uint did_hit = block_shapes(g->blocks + i, r->slab, t_max); did_hit != 0; did_hit &= did_hit - 1u)
+        shape_hits(g, g->blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE, r->ray, t_max, filter, list);
   }
 }
 
@@ -70,13 +70,12 @@ OUTLINE void geometry_hits(const Geometry *g, Ray ray, real t_max, const HitFilt
     for (uint i = 0; i < g->plane_count; ++i) shape_hits(g, i, ray, t_max, filter, list);
   global const KdNode *nodes = g->nodes;
   if (!HAS(EFFECTS_IN_LEAVES) || nodes->child[0] == 0) return;
-  TriangleRay triangle = triangle_ray(ray);
-  SlabRay slab = slab_ray(ray, nodes);
+  TreeRay r = tree_ray(ray, nodes);
   uint index = 0;
   ulong trail_low = 0, trail_high = 0;
   for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
     float8 enter, leave;
-    node_intervals(nodes + index, slab, &enter, &leave);
+    node_intervals(nodes + index, r.slab, &enter, &leave);
     int8 did_hit = (enter <= leave) & (enter < (float)t_max);
     uint left = lane_bits(did_hit);
     for (;;) {
@@ -90,7 +89,7 @@ OUTLINE void geometry_hits(const Geometry *g, Ray ray, real t_max, const HitFilt
           trail_low = (trail_low << 8) | left;
           break;
         }
-        leaf_hits(g, child, nodes[index].block_count[slot], ray, triangle, slab, t_max, filter, list);
+        leaf_hits(g, child, nodes[index].block_count[slot], &r, t_max, filter, list);
       } else {
         if (index == 0) return;
         index = nodes[index].parent;

@@ -11,6 +11,7 @@
 // between the ray's origin and a point of the scene.
 #include "shapes/triangle.cl"
 #include "shared/effects.h"
+#include "traversal/prefetch.cl"
 
 // What is not a triangle: of shapes/shape.cl, or of a test.
 INLINE bool shape_closest(global const Shape *shape, uint index, global const float *curves, Ray ray, Hit *hit);
@@ -127,17 +128,32 @@ INLINE uint block_shapes(global const TriangleBlock *block, SlabRay ray, float t
   return lane_bits((enter <= leave) & (primitive < 0) & (primitive != -1));
 }
 
-// The nearest hit before hit->t among the blocks of a leaf.
+// A ray as nodes, triangles and shapes take it.
+typedef struct {
+  Ray ray;
+  TriangleRay triangle;
+  SlabRay slab;
+} TreeRay;
+
+INLINE TreeRay tree_ray(Ray ray, global const KdNode *nodes) {
+  TreeRay result;
+  result.ray = ray;
+  result.triangle = triangle_ray(ray);
+  result.slab = slab_ray(ray, nodes);
+  return result;
+}
+
+// The nearest hit before hit->t among the `count` blocks of a leaf.
 INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
-                         uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, Hit *hit) {
+                         uint child, uint count, const TreeRay *r, Hit *hit) {
   bool found = false;
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
-    if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, triangle, hit);
+    if (HAS(EFFECT_TRIANGLES)) found |= block_closest(blocks, i, r->triangle, hit);
     if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES)) {
-      for (uint did_hit = block_shapes(blocks + i, slab, hit->t); did_hit != 0; did_hit &= did_hit - 1u) {
+      for (uint did_hit = block_shapes(blocks + i, r->slab, hit->t); did_hit != 0; did_hit &= did_hit - 1u) {
         uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
-        found |= shape_closest(shapes + index, index, curves, ray, hit);
+        found |= shape_closest(shapes + index, index, curves, r->ray, hit);
       }
     }
   }
@@ -145,35 +161,19 @@ INLINE bool leaf_closest(global const TriangleBlock *blocks, global const Shape 
 }
 
 INLINE bool leaf_occluded(global const TriangleBlock *blocks, global const Shape *shapes, global const float *curves,
-                          uint child, uint count, Ray ray, TriangleRay triangle, SlabRay slab, real t_max,
-                          uint *diagnostics) {
+                          uint child, uint count, const TreeRay *r, real t_max, uint *diagnostics) {
   uint first = child & KD_INDEX;
   for (uint i = first; i < first + count * BLOCK_STRIDE; i += BLOCK_STRIDE) {
     real8 t, weight_1, weight_2;
-    if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, triangle, t_max, &t, &weight_1, &weight_2)) return true;
+    if (HAS(EFFECT_TRIANGLES) && block_intersect(blocks + i, r->triangle, t_max, &t, &weight_1, &weight_2)) return true;
     if (HAS(EFFECTS_IN_SHAPE_LEAVES) && (child & KD_SHAPES)) {
-      for (uint did_hit = block_shapes(blocks + i, slab, t_max); did_hit != 0; did_hit &= did_hit - 1u) {
+      for (uint did_hit = block_shapes(blocks + i, r->slab, t_max); did_hit != 0; did_hit &= did_hit - 1u) {
         uint index = blocks[i].primitive[lowest_bit(did_hit)] & ~BLOCK_SHAPE;
-        if (shape_occluded(shapes + index, curves, ray, t_max, diagnostics)) return true;
+        if (shape_occluded(shapes + index, curves, r->ray, t_max, diagnostics)) return true;
       }
     }
   }
   return false;
-}
-
-// Asks for 256 bytes that will be read later. OpenCL's own prefetch() does nothing on PoCL.
-INLINE void fetch_ahead(size_t address) {
-#if defined(__x86_64__) || defined(__aarch64__)
-  __builtin_prefetch((const void *)address);
-  __builtin_prefetch((const void *)(address + 64));
-  __builtin_prefetch((const void *)(address + 128));
-  __builtin_prefetch((const void *)(address + 192));
-#endif
-}
-
-// Asks for the memory of a child that will be visited later: worth 10-20% on trees larger than the caches.
-INLINE void prefetch_child(global const KdNode *nodes, global const TriangleBlock *blocks, uint child) {
-  fetch_ahead((child & KD_LEAF) ? (size_t)(blocks + (child & KD_INDEX) + BLOCK_STRIDE - 1u) : (size_t)(nodes + child));
 }
 
 #define TRAIL_DONE 0u    // no sibling is left
@@ -185,8 +185,7 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
                            global const float *curves, Ray ray, Hit *hit) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   if (nodes->child[0] == 0) return false;
-  TriangleRay triangle = triangle_ray(ray);
-  SlabRay slab = slab_ray(ray, nodes);
+  TreeRay r = tree_ray(ray, nodes);
   bool found = false;
   uint index = 0, slot = 0;
   bool retest = false;  // only the children after `slot`
@@ -197,7 +196,7 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
     // right for flat cells as well, and does not depend on the hit so far.
     global const KdNode *node = nodes + index;
     float8 enter, leave;
-    node_intervals(node, slab, &enter, &leave);
+    node_intervals(node, r.slab, &enter, &leave);
     int8 key = (as_int8(enter + leave) & ~7) | lanes;
     int8 did_hit = (enter <= leave) & (enter < (float)hit->t);
     int keys[8];
@@ -228,9 +227,9 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
           retest = false;
           break;
         }
-        if (leaf_closest(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, triangle, slab, hit)) {
+        if (leaf_closest(blocks, shapes, curves, child, nodes[index].block_count[slot], &r, hit)) {
           found = true;
-          if (hit_is_final(nodes + index, slot, slab, (float)hit->t)) return true;
+          if (hit_is_final(nodes + index, slot, r.slab, (float)hit->t)) return true;
         }
       }
       uint next = (uint)trail & 15u;
@@ -260,13 +259,12 @@ INLINE bool kdtree_closest(global const KdNode *nodes, global const TriangleBloc
 INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                             global const float *curves, Ray ray, real t_max, uint *diagnostics) {
   if (nodes->child[0] == 0) return false;
-  TriangleRay triangle = triangle_ray(ray);
-  SlabRay slab = slab_ray(ray, nodes);
+  TreeRay r = tree_ray(ray, nodes);
   uint index = 0;
   ulong trail_low = 0, trail_high = 0;  // 8 bits a level, the node above the current one lowest
   for (uint step = 0; step < KD_STEP_LIMIT; ++step) {
     float8 enter, leave;
-    node_intervals(nodes + index, slab, &enter, &leave);
+    node_intervals(nodes + index, r.slab, &enter, &leave);
     int8 did_hit = (enter <= leave) & (enter < (float)t_max);
     uint left = lane_bits(did_hit);
     for (;;) {
@@ -280,8 +278,7 @@ INLINE bool kdtree_occluded(global const KdNode *nodes, global const TriangleBlo
           trail_low = (trail_low << 8) | left;
           break;
         }
-        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], ray, triangle, slab, t_max,
-                          diagnostics))
+        if (leaf_occluded(blocks, shapes, curves, child, nodes[index].block_count[slot], &r, t_max, diagnostics))
           return true;
       } else {
         if (index == 0) return false;

@@ -162,8 +162,8 @@ INLINE uint traverse_shapes(global const KdNode *nodes, global const TriangleBlo
                         global const float *curves, const RayArrays *rays, StreamTraversal *traverse, uint i) {
   Hit hit = {traverse->t[i], traverse->primitive[i], traverse->u[i], traverse->v[i], traverse->diagnostics[i]};
   uint count = nodes[traverse->node[i]].block_count[traverse->slot[i]];
-  bool found = leaf_closest(blocks, shapes, curves, traverse_child(nodes, traverse, i), count, arrays_ray(rays, i),
-                            traverse_triangle(traverse, i), traverse_slab(traverse, i), &hit);
+  TreeRay r = {arrays_ray(rays, i), traverse_triangle(traverse, i), traverse_slab(traverse, i)};
+  bool found = leaf_closest(blocks, shapes, curves, traverse_child(nodes, traverse, i), count, &r, &hit);
   traverse->t[i] = hit.t, traverse->primitive[i] = hit.primitive, traverse->u[i] = hit.u, traverse->v[i] = hit.v;
   traverse->diagnostics[i] = hit.diagnostics;
   return found ? 1u : 0u;

@@ -52,14 +52,19 @@ INLINE PacketTriangleRays packet_triangle_rays(uint axis, float16 ox, float16 oy
   return p;
 }
 
+// Heights of the corners of a block's triangles along the packet's axis, over the origin of its rays.
+typedef struct {
+  float8 a, b, c;
+} CornerHeights;
+
 // Least and greatest coordinates of a triangle's corners after the shears of all rays from one origin.
 INLINE void packet_sheared(global const TriangleBlock *block, size_t row, float origin, float low_shear,
-                           float high_shear, float8 az, float8 bz, float8 cz, float8 *low, float8 *high) {
+                           float high_shear, CornerHeights z, float8 *low, float8 *high) {
   float8 a = block_row(block, 0, row) - origin, b = block_row(block, 1, row) - origin,
          c = block_row(block, 2, row) - origin;
-  float8 a_low = fma(-low_shear, az, a), a_high = fma(-high_shear, az, a);
-  float8 b_low = fma(-low_shear, bz, b), b_high = fma(-high_shear, bz, b);
-  float8 c_low = fma(-low_shear, cz, c), c_high = fma(-high_shear, cz, c);
+  float8 a_low = fma(-low_shear, z.a, a), a_high = fma(-high_shear, z.a, a);
+  float8 b_low = fma(-low_shear, z.b, b), b_high = fma(-high_shear, z.b, b);
+  float8 c_low = fma(-low_shear, z.c, c), c_high = fma(-high_shear, z.c, c);
   *low = min(min(min(a_low, a_high), min(b_low, b_high)), min(c_low, c_high));
   *high = max(max(max(a_low, a_high), max(b_low, b_high)), max(c_low, c_high));
 }
@@ -71,11 +76,11 @@ INLINE void packet_sheared(global const TriangleBlock *block, size_t row, float 
 INLINE uint packet_candidates(global const TriangleBlock *block, const PacketTriangleRays *p) {
   int8 kept = as_int8(*(global const uint8 *)block->primitive) >= 0;
   if (p->one_origin) {
-    float8 az = block_row(block, 0, p->z) - p->first_z, bz = block_row(block, 1, p->z) - p->first_z,
-           cz = block_row(block, 2, p->z) - p->first_z;
+    CornerHeights z = {block_row(block, 0, p->z) - p->first_z, block_row(block, 1, p->z) - p->first_z,
+                       block_row(block, 2, p->z) - p->first_z};
     float8 low_x, high_x, low_y, high_y;
-    packet_sheared(block, p->x, p->first_x, p->low_x, p->high_x, az, bz, cz, &low_x, &high_x);
-    packet_sheared(block, p->y, p->first_y, p->low_y, p->high_y, az, bz, cz, &low_y, &high_y);
+    packet_sheared(block, p->x, p->first_x, p->low_x, p->high_x, z, &low_x, &high_x);
+    packet_sheared(block, p->y, p->first_y, p->low_y, p->high_y, z, &low_y, &high_y);
     kept &= (max(low_x, low_y) <= 1e-18f) & (min(high_x, high_y) >= -1e-18f);
   }
   return lane_bits(kept);
