@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Usage: scripts/gone_names.sh [CAUSTICL]
-# Finds names that the tree has given up for the field's own (docs/glossary.md) in host/, cl/, tests/, the documents and what
-# --help of the program CAUSTICL (build/causticl) prints. Prints each place and fails where there is any. CHANGELOG.md and docs/performance-log.md may name them.
+# Finds names that the tree has given up for the field's own (docs/glossary.md) in host/, cl/, tests/, scripts/, the
+# documents and what --help of the program CAUSTICL (build/causticl) prints. Prints each place and fails where there is
+# any. CHANGELOG.md and docs/performance-log.md may name them.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
@@ -54,7 +55,7 @@ note() {
 }
 code=0
 grep -rnwFI -f <(printf '%s\n' "$pattern") --include='*.cpp' --include='*.hpp' --include='*.cl' --include='*.h' --include='*.patch' \
-  "$root/host" "$root/cl" "$root/tests" || code=$?
+  --include='*.py' --include='*.sh' --exclude=gone_names.sh "$root/host" "$root/cl" "$root/tests" "$root/scripts" || code=$?
 note $code
 code=0
 grep -nwFI -f <(printf '%s\n' "$pattern") "${documents[@]}" || code=$?

@@ -10,7 +10,7 @@
 #include "photons/kernel_area.cl"
 #include "photons/visible_point.cl"
 
-// The ray with which path number `sample` of pixel (x, y) begins. `even`: as PathSampler.sobol is not 0.
+// The ray with which path number `sample` of pixel (x, y) begins. `low_discrepancy`: as PathSampler.sobol is not 0.
 INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool low_discrepancy) {
   uint samples = params->visible_points;
   PathSampler sampler = path_sampler(params->seed, params->pass, y * params->width + x, sample, samples, low_discrepancy);

@@ -4,7 +4,7 @@
 #include "paths/camera_path.cl"
 
 // The ray with which the path of this pass through pixel (x, y) begins, whose number among the pixel's is 0, as
-// primary_hits.cl asks for both integrators. `even`: as PathSampler.sobol is not 0. Of
+// primary_hits.cl asks for both integrators. `low_discrepancy`: as PathSampler.sobol is not 0. Of
 // independent numbers four consecutive samples stratify a pixel 2 x 2; each pixel begins with a stratum of its own, so that
 // a count that four does not divide shifts nothing.
 INLINE Ray path_ray(const Params *params, uint x, uint y, uint sample, bool low_discrepancy) {
