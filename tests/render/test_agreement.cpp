@@ -19,8 +19,8 @@ struct Budget {
   int passes, photons, samples;
   int width = 64, height = 48;
   std::optional<double> radius = {};
-  // Materials in the place of smooth glass: path tracing never finds the caustics of point and directional
-  // lights.
+  // Materials in the place of smooth glass and panes: path tracing never finds the caustics of point and
+  // directional lights.
   std::vector<const char*> made_white = {};
 };
 const std::vector<Budget> budgets{
@@ -41,6 +41,14 @@ const std::vector<Budget> budgets{
     {"effects/sky.json", 8000, 10000, 65536, 32, 20, 0.06},
     {"effects/spot_caustic.json", 200, 60000, 4096, 64, 40, 0.08, {"materials.ball"}},
     {"effects/sun.json", 96, 100000, 1024, 64, 40, 0.1, {"materials.glass", "materials.blue"}},
+    {"effects/leaded_window.json",
+     400,
+     60000,
+     4096,
+     64,
+     40,
+     0.1,
+     {"materials.red", "materials.gold", "materials.green", "materials.blue", "materials.clear"}},
     {"effects/coloured_glass.json", 1600, 30000, 16384, 64, 40, 0.1},
     {"effects/prism.json", 4000, 30000, 160000, 32, 20, 0.1},
     {"effects/moving_balls.json", 1600, 30000, 16384, 64, 40, 0.1},
