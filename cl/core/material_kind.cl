@@ -9,6 +9,10 @@
 #define KIND_HAS(wanted, NAME, number, name, effect, family, layers, fields, properties, ...) \
   || ((((family) | (layers) | (properties)) & (wanted)) != 0u && IS_KIND(kind, NAME, effect))
 
+// Every lobe has an effect: the code of programs that do not know it is left out by HAS().
+#define LOBE_HAS_EFFECT(x, NAME, number, name, effect, family, ...) && ((family) == LAMBERT || (effect) != 0u)
+typedef char every_lobe_has_an_effect[1 MATERIAL_TABLE(LOBE_HAS_EFFECT, ) ? 1 : -1];
+
 INLINE bool is_lambert(uint kind) { return false MATERIAL_TABLE(KIND_HAS, LAMBERT); }
 INLINE bool transmits(uint kind) { return false MATERIAL_TABLE(KIND_HAS, TRANSMITS); }
 INLINE bool is_layered(uint kind) { return false MATERIAL_TABLE(KIND_HAS, LAYERED); }

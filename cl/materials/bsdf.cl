@@ -107,10 +107,10 @@ INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, r
 }
 
 #define SAMPLE_LAMBERT(NAME, name, effect)
-#define SAMPLE_REFLECTS(NAME, name, effect)                                                                        \
-  if (HAS(effect) && bsdf->kind == MATERIAL_##NAME) {                                                              \
-    BsdfSample sample = {mirror_direction(surface, wi, n), name##_tint(bsdf, -dot3(wi, n), false), 0};                    \
-    return sample;                                                                                                 \
+#define SAMPLE_REFLECTS(NAME, name, effect)                                                            \
+  if (IS_KIND(bsdf->kind, NAME, effect)) {                                                             \
+    BsdfSample sample = {mirror_direction(surface, wi, n), name##_tint(bsdf, -dot3(wi, n), false), 0}; \
+    return sample;                                                                                     \
   }
 #define SAMPLE_TRANSMITS(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_sample(bsdf, surface, wi, n, random, radiance);

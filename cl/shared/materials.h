@@ -27,7 +27,7 @@
 #define KEYS_OF_GLASS (KEY_COLOR | KEY_IOR | KEY_CAUCHY | KEY_ABSORPTION | KEY_ROUGHNESS | KEY_PRIORITY)
 
 // Columns: MATERIAL_NAME is its number in records; that number; its name in scene files and of its file, enumerator and
-// functions; its effect, 0u if every program knows the material; family; layers; fields; what else; keys; what it is.
+// functions; its effect, 0u for LAMBERT, which every program knows; family; layers; fields; what else; keys; what it is.
 // `ROW(x, ...)` is made of each row.
 #define MATERIAL_TABLE(ROW, x) \
   ROW(x, DIFFUSE,   0, diffuse,   0u,               LAMBERT,   ONE_LOBE, COMMON_FIELDS, STORES_PHOTONS, \

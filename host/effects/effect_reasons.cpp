@@ -73,30 +73,19 @@ bool fills(const MediumSpec& medium) {
 
 }  // namespace
 
-template <>
-std::string effect_reason<EFFECT_TRIANGLES>(const Scene& scene) {
-  return by_shape(scene, EFFECT_TRIANGLES);
-}
-
-template <>
-std::string effect_reason<EFFECT_SPHERES>(const Scene& scene) {
-  return by_shape(scene, EFFECT_SPHERES);
-}
-
-template <>
-std::string effect_reason<EFFECT_PLANES>(const Scene& scene) {
-  return by_shape(scene, EFFECT_PLANES);
-}
-
-template <>
-std::string effect_reason<EFFECT_DISKS>(const Scene& scene) {
-  return by_shape(scene, EFFECT_DISKS);
-}
-
-template <>
-std::string effect_reason<EFFECT_BEZIER>(const Scene& scene) {
-  return by_shape(scene, EFFECT_BEZIER);
-}
+// Effects that stand for primitives are called for by shapes: see effect_of(). The others have functions
+// below.
+#define DEFINE_REASON_OF_SHAPES(name)                            \
+  template <>                                                    \
+  std::string effect_reason<EFFECT_##name>(const Scene& scene) { \
+    return by_shape(scene, EFFECT_##name);                       \
+  }
+#define REASON_OF_TRIANGLE_LEAVES(name) DEFINE_REASON_OF_SHAPES(name)
+#define REASON_OF_SHAPE_LEAVES(name) DEFINE_REASON_OF_SHAPES(name)
+#define REASON_OF_UNBOUNDED(name) DEFINE_REASON_OF_SHAPES(name)
+#define REASON_OF_NO_GEOMETRY(name)
+#define REASON_OF_ROW(x, name, bit, key, programs, scalar, geometry, text) REASON_OF_##geometry(name)
+EFFECT_TABLE(REASON_OF_ROW, )
 
 template <>
 std::string effect_reason<EFFECT_TEXTURES>(const Scene& scene) {
