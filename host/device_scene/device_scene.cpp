@@ -5,13 +5,10 @@
 #include "base/error.hpp"
 #include "device_scene/material_record.hpp"
 #include "world/flat_scene.hpp"
+#include "world/float4.hpp"
 
 namespace causticl {
 namespace {
-
-float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 /// IEEE half, round to nearest even; large values become the largest finite one. NaN and infinity stay what
 /// they are: the kernels stop and count them.

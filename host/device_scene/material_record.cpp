@@ -2,12 +2,10 @@
 
 #include <cmath>
 
+#include "world/float4.hpp"
+
 namespace causticl {
 namespace {
-
-float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 /// Fraction of diffuse light that a smooth boundary to the index `eta` reflects back inside, from what it
 /// lets in from outside by reciprocity. The integral over sin^2 theta by the midpoint rule, to 1e-6.

@@ -8,17 +8,12 @@
 
 #include "effects/passes.hpp"
 #include "scene/material_kind.hpp"
+#include "world/float4.hpp"
 
 namespace causticl {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
-Vec3 to_vec3(const float4& v) { return {v.x, v.y, v.z}; }
 
 uint type_of(const WallPrimitive& primitive) { return static_cast<uint>(primitive.wall.origin.w); }
 

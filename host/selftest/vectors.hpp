@@ -1,15 +1,9 @@
-// Vectors between host and device, and frames about a direction.
+// Frames about a direction.
 #pragma once
 
-#include "base/vec.hpp"
-#include "shared/types.h"
+#include "world/float4.hpp"
 
 namespace causticl {
-
-inline Vec3 to_vec3(float4 v) { return {v.x, v.y, v.z}; }
-inline float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 /// Any right-handed orthonormal frame with z along the unit vector `axis`.
 struct Frame {

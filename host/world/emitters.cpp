@@ -5,13 +5,10 @@
 #include <numbers>
 
 #include "world/environment.hpp"
+#include "world/float4.hpp"
 
 namespace causticl {
 namespace {
-
-float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 /// Centre and radius of a sphere around all that is bounded, which light from beyond the scene has to cover.
 /// The sphere about the bounding box, a little larger, so that no rounding in a kernel cuts it.

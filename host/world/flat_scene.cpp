@@ -7,15 +7,12 @@
 #include "base/error.hpp"
 #include "scene/object_triangles.hpp"
 #include "world/emitters.hpp"
+#include "world/float4.hpp"
 
 namespace causticl {
 namespace {
 
 using Shape3 = Object::Shape;
-
-float4 to_float4(Vec3 v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 void store_rows(const Transform& transform, float4 rows[3]) {
   const Vec3& t = transform.translation;
