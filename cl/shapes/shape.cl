@@ -1,9 +1,13 @@
-// Every primitive that is not a triangle, behind one interface.
-#include "shapes/bezier.cl"
-#include "shapes/disk.cl"
+// Every primitive that is not a triangle, behind one interface: the rows of SHAPE_TABLE.
+//
+// The file of a shape, shapes/primitives/NAME.cl, has
+//   real NAME_intersect(shape, curves, ray, t_max, &parameters)
+//     the t in (0, t_max) where the ray meets the shape first, or INFINITY. `parameters` are zero before: what
+//     NAME_surface is to know of the hit; parameters.x < 0 marks a hit that stands for what was not told apart.
+//   void NAME_surface(shape, curves, ray, hit, &surface)
+//     all of Surface but the material, at a hit of the same ray.
 #include "shared/effects.h"
-#include "shapes/plane.cl"
-#include "shapes/sphere.cl"
+#include "shapes/primitives/*.cl"
 
 // Meets the ray with one shape. If it is met at 0 < t < hit->t, sets hit->t, hit->primitive to
 // HIT_SHAPE | index and hit->u, hit->v to what shape_surface needs, and returns true; else leaves hit as it is.
@@ -11,17 +15,16 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   uint type = shape->type;
   real t = INFINITY;
   real2 parameters = (real2)(0);
-  if (HAS(EFFECT_SPHERES) && type == SHAPE_SPHERE) t = sphere_intersect(shape, ray, hit->t);
-  if (HAS(EFFECT_PLANES) && type == SHAPE_PLANE) t = plane_intersect(shape, ray, hit->t);
-  if (HAS(EFFECT_DISKS) && type == SHAPE_DISK) t = disk_intersect(shape, ray, hit->t);
-  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER)
-    t = bezier_intersect(shape, curves, ray, hit->t, &parameters);
+#define INTERSECT(x, NAME, number, name, key, effect) \
+  if (HAS(effect) && type == SHAPE_##NAME) t = name##_intersect(shape, curves, ray, hit->t, &parameters);
+  SHAPE_TABLE(INTERSECT, )
+#undef INTERSECT
   if (!(t < hit->t)) return false;
   hit->t = t;
   hit->primitive = HIT_SHAPE | index;
   hit->u = parameters.x;
   hit->v = parameters.y;
-  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER && parameters.x < 0) hit->diagnostics |= DIAGNOSTIC_UNRESOLVED;
+  if (parameters.x < 0) hit->diagnostics |= DIAGNOSTIC_UNRESOLVED;
   return true;
 }
 
@@ -33,12 +36,14 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
   return occluded;
 }
 
+// Whether the scene has shapes of that effect alone: their type need not be read.
+#define HAS_ALONE(effect) ((EFFECTS & EFFECTS_OF_SHAPES) == (effect))
+
 // Position, normals, uv and material at a hit that shape_closest found on the same ray.
 INLINE void shape_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
-  uint type = HAS(EFFECTS_OF_SHAPES & ~EFFECT_SPHERES) ? shape->type : SHAPE_SPHERE;
-  if (HAS(EFFECT_SPHERES) && type == SHAPE_SPHERE) sphere_surface(shape, ray, hit, surface);
-  if (HAS(EFFECT_PLANES) && type == SHAPE_PLANE) plane_surface(shape, ray, hit, surface);
-  if (HAS(EFFECT_DISKS) && type == SHAPE_DISK) disk_surface(shape, ray, hit, surface);
-  if (HAS(EFFECT_BEZIER) && type == SHAPE_BEZIER) bezier_surface(shape, curves, ray, hit, surface);
+#define SURFACE(x, NAME, number, name, key, effect) \
+  if (HAS(effect) && (HAS_ALONE(effect) || shape->type == SHAPE_##NAME)) name##_surface(shape, curves, ray, hit, surface);
+  SHAPE_TABLE(SURFACE, )
+#undef SURFACE
   surface->material = shape->material;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "shared/materials.h"
+#include "shared/shapes.h"
 
 // Programs whose kernels ask for an effect with HAS(); the other programs are compiled without it, and are the same
 // for every scene.
@@ -35,13 +36,10 @@
 // Columns: EFFECT_name is its bit; the number of that bit; the key, as --effects takes it and `explain` prints it; the
 // programs that read it; the steps that cannot be batched with it; where its primitives are; its name in text.
 // What in a scene calls for an effect: the function of its name in host/effects/effect_reasons.cpp.
-// Those of materials are in materials.h. `ROW(x, ...)` is made of each row.
+// Those of shapes are in shapes.h, those of materials in materials.h. `ROW(x, ...)` is made of each row.
 #define EFFECT_TABLE(ROW, x) \
   ROW(x, TRIANGLES,      0,  "triangles",      IN_PATHS,              BATCHED,                  TRIANGLE_LEAVES, "triangles") \
-  ROW(x, SPHERES,        1,  "spheres",        IN_PATHS,              BATCHED,                  SHAPE_LEAVES,    "spheres") \
-  ROW(x, PLANES,         2,  "planes",         IN_PATHS,              SCALAR_PATHS,             UNBOUNDED,       "infinite planes") \
-  ROW(x, DISKS,          3,  "disks",          IN_PATHS,              SCALAR_PATHS,             SHAPE_LEAVES,    "disks") \
-  ROW(x, BEZIER,         4,  "curves",         IN_PATHS,              SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES,    "revolved curves") \
+  SHAPE_EFFECTS(ROW, x) \
   ROW(x, TEXTURES,       5,  "textures",       IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "textures") \
   ROW(x, LENS,           8,  "lens",           IN_CAMERA | IN_PATH,   BATCHED,                  NO_GEOMETRY,     "depth of field") \
   ROW(x, SHADOW_RAYS,    9,  "shadow_rays",    IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "direct light by shadow rays") \

@@ -42,12 +42,7 @@ typedef struct {
 } Texture;
 CHECK_SIZE(Texture, 64);
 
-// What is not a triangle. Rectangles and boxes become triangles on upload.
-#define SHAPE_SPHERE 0u
-#define SHAPE_PLANE 1u
-#define SHAPE_DISK 2u
-#define SHAPE_BEZIER 3u
-
+// What is not a triangle: see shapes.h.
 typedef struct {
   float4 sphere;       // SHAPE_SPHERE: centre and radius
   float4 to_world[3];  // rows of the affine map from local space (disk: unit disc in z = 0)

@@ -7,6 +7,7 @@
 
 #include "shared/materials.h"
 #include "shared/real.h"
+#include "shared/shapes.h"
 
 #ifdef __OPENCL_VERSION__
 #define CHECK_SIZE(type, size) typedef char type##_has_size_##size[(sizeof(type) == (size)) ? 1 : -1]

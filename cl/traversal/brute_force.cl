@@ -7,7 +7,7 @@
 //
 // For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most. Arrays of
 // rays hold whole packets.
-#include "shapes/plane.cl"
+#include "shapes/primitives/plane.cl"
 #include "traversal/kdtree.cl"
 #include "traversal/triangle_packet.cl"
 

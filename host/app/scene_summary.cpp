@@ -10,6 +10,7 @@
 #include "scene/dielectrics.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
+#include "scene/shape_kind.hpp"
 #include "world/view_check.hpp"
 
 namespace causticl {
@@ -29,26 +30,6 @@ std::string count(std::size_t number, const std::string& noun) {
                        : noun.back() == 'h' || noun.back() == 'x' || noun.back() == 's' ? "es"
                                                                                         : "s";
   return std::to_string(number) + " " + noun + ending;
-}
-
-const char* shape_name(Object::Shape shape) {
-  switch (shape) {
-    case Object::Shape::sphere:
-      return "sphere";
-    case Object::Shape::plane:
-      return "plane";
-    case Object::Shape::rectangle:
-      return "rectangle";
-    case Object::Shape::disk:
-      return "disk";
-    case Object::Shape::box:
-      return "box";
-    case Object::Shape::mesh:
-      return "mesh";
-    case Object::Shape::bezier:
-      break;
-  }
-  return "bezier_rotate";
 }
 
 void print_image(std::ostream& text, const Scene& scene) {
@@ -98,7 +79,7 @@ void print_camera(std::ostream& text, const CameraSpec& camera) {
 
 void print_objects(std::ostream& text, const Scene& scene) {
   std::map<std::string, std::size_t> shapes;
-  for (const auto& object : scene.objects) ++shapes[shape_name(object.shape)];
+  for (const auto& object : scene.objects) ++shapes[name_of(object.shape)];
   text << "objects     " << scene.objects.size();
   const char* separator = ": ";
   for (const auto& [shape, number] : shapes) {
@@ -110,7 +91,7 @@ void print_objects(std::ostream& text, const Scene& scene) {
   std::size_t triangles = 0;
   std::map<int, std::size_t> uses;  // of each mesh
   for (const auto& object : scene.objects) {
-    if (object.shape != Object::Shape::mesh) continue;
+    if (object.mesh < 0) continue;
     ++uses[object.mesh];
     triangles += scene.meshes[static_cast<std::size_t>(object.mesh)].triangles();
   }
@@ -185,7 +166,7 @@ void print_emitters(std::ostream& text, const Scene& scene) {
   for (const auto& object : scene.objects) {
     const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
     if (!is_lit(scene, object)) continue;
-    lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : shape_name(object.shape)) +
+    lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : name_of(object.shape)) +
                     ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
   }
   for (const DeltaLight& light : scene.lights)

@@ -4,8 +4,8 @@
 
 #include "base/error.hpp"
 #include "device_scene/material_record.hpp"
+#include "scene/float4.hpp"
 #include "world/flat_scene.hpp"
-#include "world/float4.hpp"
 
 namespace causticl {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "world/float4.hpp"
+#include "scene/float4.hpp"
 
 namespace causticl {
 namespace {

@@ -1,14 +1,13 @@
 #include "device_scene/wall_primitives.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "effects/passes.hpp"
+#include "scene/float4.hpp"
 #include "scene/material_kind.hpp"
-#include "world/float4.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -85,66 +84,19 @@ bool join(WallPrimitive& first, const WallPrimitive& second) {
   return false;
 }
 
-/// The point of a Bezier curve at `t`, by de Casteljau.
-std::array<double, 2> curve_point(std::vector<std::array<double, 2>> points, double t) {
-  for (std::size_t n = points.size(); n > 1; --n)
-    for (std::size_t i = 0; i + 1 < n; ++i)
-      for (std::size_t k = 0; k < 2; ++k) points[i][k] += t * (points[i + 1][k] - points[i][k]);
-  return points[0];
-}
-
-/// The revolved curve as strips of triangles. They lie a little inside of it: what they stand for is whether
+/// A shape whose walls are flat pieces, which may lie a little inside of it: what they stand for is whether
 /// something is behind them.
-void add_curve(const Scene& scene, const Object& object, double time,
-               std::vector<WallPrimitive>& primitives) {
-  constexpr int along = 24, around = 32;
-  Transform transform = object.transform;
-  transform.translation = transform.translation + time * object.motion;
-  const auto point = [&](int i, int j) {
-    const auto [radius, height] = curve_point(object.points, static_cast<double>(i) / along);
-    const double angle = 2 * std::numbers::pi * j / around;
-    return transform.point({radius * std::cos(angle), height, radius * std::sin(angle)});
-  };
-  for (int i = 0; i < along; ++i)
-    for (int j = 0; j < around; ++j) {
-      const Vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1), d = point(i, j + 1);
-      for (const auto& corner : {std::to_array({a, b, c}), std::to_array({a, c, d})}) {
-        WallPrimitive primitive = primitive_of(scene, static_cast<std::size_t>(object.material));
-        if (set_triangle(primitive, {corner[0], corner[1], corner[2]})) primitives.push_back(primitive);
-      }
-    }
-}
-
-/// False for a shape that is none of its own here: revolved curves, whose points the scene holds.
-bool set_shape(WallPrimitive& primitive, const Shape& shape) {
-  const float4* rows = shape.to_world;
-  const Vec3 centre{rows[0].w, rows[1].w, rows[2].w};
-  if (shape.type == SHAPE_SPHERE) {
-    const double radius = shape.sphere.w;
-    primitive.wall.origin = to_float4(to_vec3(shape.sphere), WALL_SPHERE);
-    primitive.wall.normal.w = shape.sphere.w;
-    const Vec3 reach{radius, radius, radius};
-    set_bounds(primitive, to_vec3(shape.sphere) - reach, to_vec3(shape.sphere) + reach);
-    return true;
+void add_facets(const Scene& scene, Object object, double time, int lit_side,
+                std::vector<WallPrimitive>& primitives) {
+  constexpr int curve_pieces = 24;
+  object.transform.translation = object.transform.translation + time * object.motion;
+  std::vector<Facet> facets;
+  kind_of(object).add_facets(object, curve_pieces, facets);
+  for (const Facet& facet : facets) {
+    WallPrimitive primitive = primitive_of(scene, static_cast<std::size_t>(object.material));
+    primitive.lit_side = lit_side;
+    if (set_triangle(primitive, facet.corner)) primitives.push_back(primitive);
   }
-  if (shape.type == SHAPE_BEZIER) return false;
-  // The row of the inverse is the normal, whatever the map does to the local axes.
-  const Vec3 n = normalize(to_vec3(shape.to_local[2]));
-  if (shape.type == SHAPE_PLANE) {
-    primitive.wall.origin = to_float4(centre, WALL_PLANE);
-    primitive.wall.normal = to_float4(n);
-    set_bounds(primitive, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity});
-    return true;
-  }
-  // An ellipse counts as its inscribed circle.
-  const Vec3 x{rows[0].x, rows[1].x, rows[2].x}, y{rows[0].y, rows[1].y, rows[2].y};
-  const double radius = std::min(length(x), length(y));
-  primitive.wall.origin = to_float4(centre, WALL_DISK);
-  primitive.wall.normal = to_float4(n, radius);
-  Vec3 reach;
-  for (int axis = 0; axis < 3; ++axis) reach[axis] = radius * std::sqrt(std::max(0.0, 1 - n[axis] * n[axis]));
-  set_bounds(primitive, centre - reach, centre + reach);
-  return true;
 }
 
 }  // namespace
@@ -166,10 +118,20 @@ std::vector<WallPrimitive> wall_primitives(const Scene& scene, const FlatScene& 
     const causticl::Shape& shape = world.shapes[i];
     WallPrimitive primitive = primitive_of(scene, shape.material);
     primitive.lit_side = sides.shapes[i];
-    if (set_shape(primitive, shape)) primitives.push_back(primitive);
+    ShapeWall wall{};
+    if (!kind_of_record(shape).wall(shape, wall)) continue;
+    primitive.wall = wall.wall;
+    set_bounds(primitive, wall.low, wall.high);
+    primitives.push_back(primitive);
   }
-  for (const auto& object : scene.objects)
-    if (object.shape == Object::Shape::bezier) add_curve(scene, object, time, primitives);
+  std::size_t shape = world.plane_count;  // of the next object that is one
+  for (const auto& object : scene.objects) {
+    if (is_infinite(object) || is_made_of_triangles(object)) continue;
+    ShapeWall wall{};
+    if (!kind_of(object).wall(world.shapes[shape], wall))
+      add_facets(scene, object, time, sides.shapes[shape], primitives);
+    ++shape;
+  }
   return primitives;
 }
 

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#include "effects/shape_effect.hpp"
 #include "effects/walls_reason.hpp"
 #include "scene/dielectrics.hpp"
 #include "scene/material_kind.hpp"
-#include "scene/object_triangles.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
-
-using Shape = Object::Shape;
 
 /// Names what calls for an effect: the first object that `wanted` accepts, by `describe`, and how many more.
 template <typename Predicate, typename Describe>
@@ -22,17 +19,12 @@ std::string first_object(const Scene& scene, const Predicate& wanted, const Desc
   return describe(*found) + (more ? " and " + std::to_string(more) + " more" : "");
 }
 
-const char* shape_name(Shape shape) {
-  static constexpr const char* names[] = {"sphere", "plane", "rectangle", "disk", "box", "mesh", "curve"};
-  return names[static_cast<int>(shape)];
-}
-
 std::string by_shape(const Scene& scene, EffectBit effect) {
   return first_object(
       scene, [&](const Object& object) { return effect_of(object.shape) == effect; },
       [](const Object& object) {
         return object.is_disc_light ? "light_pos of " + object.pointer
-                                    : std::string(shape_name(object.shape)) + " " + object.pointer;
+                                    : std::string(name_of(object.shape)) + " " + object.pointer;
       });
 }
 
@@ -102,9 +94,7 @@ std::string effect_reason<EFFECT_LENS>(const Scene& scene) {
 template <>
 std::string effect_reason<EFFECT_SHADOW_RAYS>(const Scene& scene) {
   if (scene.renderer.direct_light != DirectLight::shadow_rays) return "";
-  const auto wanted = [&](const Object& object) {
-    return object.shape != Shape::plane && is_lit(scene, object);
-  };
+  const auto wanted = [&](const Object& object) { return !is_infinite(object) && is_lit(scene, object); };
   const std::string key = "/renderer/direct_light with the ";
   std::string surface =
       first_object(scene, wanted, [&](const Object& object) { return key + "emitter " + object.pointer; });
@@ -171,7 +161,7 @@ std::string effect_reason<EFFECT_SMOOTH>(const Scene& scene) {
   return first_object(
       scene,
       [&](const Object& object) {
-        return object.shape == Shape::mesh && object.smooth &&
+        return object.mesh >= 0 && object.smooth &&
                !scene.meshes[static_cast<std::size_t>(object.mesh)].normal_index.empty();
       },
       [](const Object& object) { return "normals of mesh " + object.pointer; });
@@ -182,7 +172,7 @@ std::string effect_reason<EFFECT_SLIVERS>(const Scene& scene) {
   return first_object(
       scene, [&](const Object& object) { return has_slivers(scene, object); },
       [](const Object& object) {
-        return "triangles of " + std::string(shape_name(object.shape)) + " " + object.pointer;
+        return "triangles of " + std::string(name_of(object.shape)) + " " + object.pointer;
       });
 }
 

@@ -7,11 +7,10 @@
 #include "scene/lit_sides.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/object_sides.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
-
-using Shape = Object::Shape;
 
 const MaterialSpec& material_of(const Scene& scene, const Object& object) {
   return scene.materials[static_cast<std::size_t>(object.material)];
@@ -47,7 +46,7 @@ class WallsFinder {
     const bool moves = has_motion(scene_);
     // On which sides of a flat wall there is something that holds photons, and what of it is near.
     int found = 0, near = 0;
-    const bool several = wall.shape == Shape::mesh || wall.shape == Shape::bezier || may_part_itself(index);
+    const bool several = !kind_of(wall).is_convex_body(wall) || may_part_itself(index);
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& other = scene_.objects[i];
       if (!stores_photons(material_of(scene_, other)) || (is_flat(wall) && i == index)) continue;
@@ -73,10 +72,10 @@ class WallsFinder {
     return 1.4 * scene_.renderer.radius.value_or(0) * std::max(1.0, indirect_radius(scene_.renderer));
   }
 
-  /// Whether a sphere or box has its inside lit, and a search radius may take in both of its ends.
+  /// Whether a convex body has its inside lit, and a search radius may take in both of its ends.
   bool may_part_itself(std::size_t index) const {
     const Object& object = scene_.objects[index];
-    if (object.shape != Shape::sphere && object.shape != Shape::box) return false;
+    if (!kind_of(object).is_convex_body(object)) return false;
     const Vec3 size = box_of(corners_[index]).high - box_of(corners_[index]).low;
     const bool fits = !scene_.renderer.radius || std::min({size.x, size.y, size.z}) <= stated_reach();
     return fits && may_be_lit_inside(scene_, object);
@@ -87,11 +86,11 @@ class WallsFinder {
   bool are_near(std::size_t first, std::size_t second) const {
     constexpr double near = 0.25;
     const double stated = stated_reach();
-    if (scene_.objects[first].shape == Shape::plane) std::swap(first, second);
-    if (scene_.objects[first].shape == Shape::plane) return true;
+    if (is_infinite(scene_.objects[first])) std::swap(first, second);
+    if (is_infinite(scene_.objects[first])) return true;
     const Box a = box_of(corners_[first]);
     const Object& other = scene_.objects[second];
-    if (other.shape == Shape::plane) {
+    if (is_infinite(other)) {
       const Vec3 n = normalize(other.transform.inverse().rows[2]);
       double low = INFINITY, high = -INFINITY;
       for (const Vec3 p : corners_[first]) {

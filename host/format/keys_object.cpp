@@ -1,6 +1,6 @@
-// The tables of the entries of `objects`.
-#include "format/scene_keys.hpp"
-#include "scene/scene.hpp"
+// The tables of the entries of `objects`: what all shapes have.
+#include "format/shape_keys.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -15,7 +15,9 @@ const SceneTable& motion_keys() {
   return table;
 }
 
-SceneTable shape(const char* type, const char* description, std::vector<SceneKey> own = {}) {
+}  // namespace
+
+SceneTable shape_table(Object::Shape shape, const char* description, std::vector<SceneKey> own) {
   std::vector<SceneKey> keys{
       {"transform", list(0, SIZE_MAX, "transforms", transform_step_type()), optional,
        "from local coordinates to the world; steps apply in the listed order"},
@@ -23,69 +25,19 @@ SceneTable shape(const char* type, const char* description, std::vector<SceneKey
       {"texture", base_texture_type(), optional, "base format; in place of \"material\""},
       {"material", either({string(), material_type()}), optional, "name of a material, or a material"}};
   keys.insert(keys.end(), own.begin(), own.end());
-  return {std::string("object_") + type,
-          type,
+  return {std::string("object_") + name_of(shape),
+          name_of(shape),
           description,
           keys,
           {{KeyRule::Relation::one_of, "material", "texture", "material", ""}}};
 }
 
-const SceneTable& sphere_keys() {
-  static const SceneTable table =
-      shape("sphere", "sphere about the local origin; its transform scales by one factor only",
-            {{"radius", number(positive_number), required, "radius", "local units"}});
-  return table;
-}
-
-const SceneTable& plane_keys() {
-  static const SceneTable table = shape("plane", "infinite plane z = 0");
-  return table;
-}
-
-const SceneTable& rectangle_keys() {
-  static const SceneTable table =
-      shape("rectangle", "square in z = 0, from -1/2 to 1/2 in x and y; the front looks to +z");
-  return table;
-}
-
-const SceneTable& disk_keys() {
-  static const SceneTable table =
-      shape("disk", "disk in z = 0 about the local origin; the front looks to +z",
-            {{"radius", number(positive_number), Object{}.radius, "radius", "local units"}});
-  return table;
-}
-
-const SceneTable& box_keys() {
-  static const SceneTable table =
-      shape("box", "box about the local origin",
-            {{"size", vector(positive_number), Object{}.size, "edge lengths", "local units"}});
-  return table;
-}
-
-const SceneTable& mesh_keys() {
-  static const SceneTable table =
-      shape("mesh", "triangles of a file",
-            {{"path", file(), required, "an .obj or a .ply file"},
-             {"tree_type", choice({"KDTree", "BSPTree", "MyTree"}), optional,
-              "base format; every mesh goes into the KD-tree"},
-             {"smooth", boolean(), Absent::Described{"true if the file has normals"},
-              "shading normals: those of the file, else averaged ones; false: flat faces"}});
-  return table;
-}
-
-const SceneTable& bezier_keys() {
-  static const SceneTable table = shape(
-      "bezier_rotate", "Bezier curve revolved about the local y axis",
-      {{"point", list(2, 17, "control points", tuple("numbers, radius and height", {number(), number()})),
-        required, "control points [radius, height]; the curve does not cross the axis", "local units"}});
-  return table;
-}
-
-}  // namespace
-
 ValueType object_type() {
-  return object("object", {&sphere_keys, &plane_keys, &rectangle_keys, &disk_keys, &box_keys, &mesh_keys,
-                           &bezier_keys});
+#define KEYS_OF_SHAPE(x, NAME, number, name, type, effect) &name##_keys,
+#define KEYS_OF_TRIANGLES(x, name, type) &name##_keys,
+  return object("object", {SHAPE_TABLE(KEYS_OF_SHAPE, ) TRIANGLE_SHAPE_TABLE(KEYS_OF_TRIANGLES, )});
+#undef KEYS_OF_SHAPE
+#undef KEYS_OF_TRIANGLES
 }
 
 }  // namespace causticl

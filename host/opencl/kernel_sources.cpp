@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/input_file.hpp"
@@ -27,13 +28,35 @@ std::string read_source(const std::string& name, const std::string& kernel_dir) 
   }
   const auto path = std::filesystem::path(kernel_dir) / name;
   refuse_if_open_to_all(kernel_dir);
-  refuse_if_open_to_all(path.parent_path());
-  refuse_if_open_to_all(path);
+  auto below = std::filesystem::path(kernel_dir);
+  for (const auto& part : std::filesystem::path(name)) refuse_if_open_to_all(below /= part);
   try {
     return read_input(path.string(), "a kernel source", 16u << 20);
   } catch (const UserError& error) {
     throw UserError("--kernel-dir: " + std::string(error.what()) + "; expected a copy of the folder cl/");
   }
+}
+
+/// The names of all files that `pattern`, FOLDER/*.cl, stands for, in order; else the one that it is.
+std::vector<std::string> files_of(const std::string& pattern, const std::string& kernel_dir) {
+  const std::string ending = "*.cl";
+  if (!pattern.ends_with("/" + ending)) return {pattern};
+  const std::string folder = pattern.substr(0, pattern.size() - ending.size());
+  std::set<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (name.starts_with(folder) && name.ends_with(".cl") && name.find('/', folder.size()) == name.npos)
+      names.insert(name);
+  };
+  if (kernel_dir.empty()) {
+    for (const auto& source : embedded_kernel_sources()) add(source.first);
+  } else {
+    std::error_code missing;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(kernel_dir) / folder, missing))
+      add(folder + entry.path().filename().string());
+  }
+  if (names.empty()) throw UserError("kernel sources " + pattern + ": no such files");
+  return {names.begin(), names.end()};
 }
 
 /// Whether the line begins with `directive` of the preprocessor.
@@ -62,9 +85,9 @@ void append_flat(std::string& out, const std::string& name, const std::string& t
     if (conditions > 0)
       throw UserError("kernel source " + name + ":" + std::to_string(number) +
                       ": an include under a condition; put the condition into the file");
-    const std::string included = line.substr(10, end - 10);
-    if (seen.insert(included).second)
-      append_flat(out, included, read_source(included, kernel_dir), kernel_dir, seen);
+    for (const std::string& included : files_of(line.substr(10, end - 10), kernel_dir))
+      if (seen.insert(included).second)
+        append_flat(out, included, read_source(included, kernel_dir), kernel_dir, seen);
     out += "#line " + std::to_string(number + 1) + " \"" + name + "\"\n";
   }
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "effects/shape_effect.hpp"
+#include "scene/shape_kind.hpp"
 #include "shared/types.h"
 #include "world/flat_scene.hpp"
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -30,7 +31,7 @@ std::string cost_text(const EffectCost& cost) {
 std::vector<std::string> kept_for(const Scene& scene) {
   std::vector<std::string> kept;
   const auto bounded = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                   [](const Object& object) { return object.shape != Object::Shape::plane; });
+                                   [](const Object& object) { return !is_infinite(object); });
   kept.push_back(bounded ? "tree: built over all bounded objects"
                          : "tree: none, since no object is bounded; its walk is not compiled");
   kept.push_back(scene.textures.empty()

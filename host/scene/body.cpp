@@ -4,65 +4,13 @@
 #include <map>
 #include <numbers>
 
-#include "scene/object_triangles.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
 
-// Pieces along a revolved curve and around its axis, and around a disk.
-constexpr int curve_steps = 64, curve_turns = 32, disk_turns = 64;
-
-void add_quad(std::vector<Facet>& facets, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  facets.push_back({{a, b, c}});
-  facets.push_back({{a, c, d}});
-}
-
-std::array<double, 2> curve_point(std::vector<std::array<double, 2>> p, double t) {
-  for (std::size_t n = p.size(); n > 1; --n)
-    for (std::size_t i = 0; i + 1 < n; ++i)
-      for (int k = 0; k < 2; ++k) p[i][k] += (p[i + 1][k] - p[i][k]) * t;
-  return p[0];
-}
-
-/// The normal of a revolved curve points away from the axis side on which the area swept lies: outward where
-/// the closed profile runs upward outside.
-void add_curve(std::vector<Facet>& facets, const Object& object) {
-  std::vector<std::array<double, 2>> profile;
-  for (int i = 0; i <= curve_steps; ++i)
-    profile.push_back(curve_point(object.points, static_cast<double>(i) / curve_steps));
-  double area = 0;  // of the profile closed along the axis, positive where it runs upward outside
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-    area +=
-        0.5 * (std::fabs(profile[i][0]) + std::fabs(profile[i + 1][0])) * (profile[i + 1][1] - profile[i][1]);
-  const auto point = [&](std::size_t i, int turn) {
-    const double angle = 2 * std::numbers::pi * (turn % curve_turns) / curve_turns,
-                 r = std::fabs(profile[i][0]);
-    return object.transform.point({r * std::cos(angle), profile[i][1], r * std::sin(angle)});
-  };
-  const bool turned = (area < 0) != (object.transform.determinant() < 0);
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-    for (int turn = 0; turn < curve_turns; ++turn) {
-      const Vec3 a = point(i, turn), b = point(i + 1, turn), c = point(i + 1, turn + 1),
-                 d = point(i, turn + 1);
-      if (turned)
-        add_quad(facets, a, d, c, b);
-      else
-        add_quad(facets, a, b, c, d);
-    }
-}
-
-void add_disk(std::vector<Facet>& facets, const Object& object) {
-  const auto point = [&](int turn) {
-    const double angle = 2 * std::numbers::pi * turn / disk_turns;
-    return object.transform.point({object.radius * std::cos(angle), object.radius * std::sin(angle), 0});
-  };
-  const bool mirrored = object.transform.determinant() < 0;
-  for (int turn = 0; turn < disk_turns; ++turn) {
-    const Vec3 a = point(turn), b = point(turn + 1);
-    facets.push_back(mirrored ? Facet{{object.transform.translation, b, a}}
-                              : Facet{{object.transform.translation, a, b}});
-  }
-}
+/// Pieces along a curve.
+constexpr int curve_pieces = 64;
 
 /// Whether every edge runs as often one way as the other, corners told apart by their place.
 bool is_closed(const std::vector<Facet>& facets) {
@@ -84,12 +32,6 @@ bool is_closed(const std::vector<Facet>& facets) {
   }
   return !facets.empty() &&
          std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
-}
-
-bool is_closed_curve(const Object& object) {
-  const auto& first = object.points.front();
-  const auto& last = object.points.back();
-  return first == last || (first[0] == 0 && last[0] == 0);
 }
 
 /// Solid angle under which a facet is seen, over 4 pi, positive where its outside is turned away.
@@ -115,16 +57,9 @@ int crossing(const Facet& facet, Vec3 origin, Vec3 direction) {
 
 }  // namespace
 
-BoundingBox Facet::bounds() const {
-  BoundingBox box;
-  for (const Vec3 p : corner) box.add(p);
-  return box;
-}
-
 std::vector<Facet> object_facets(const Scene& scene, const Object& object) {
   std::vector<Facet> facets;
-  if (object.shape == Object::Shape::bezier) add_curve(facets, object);
-  if (object.shape == Object::Shape::disk) add_disk(facets, object);
+  kind_of(object).add_facets(object, curve_pieces, facets);
   visit_triangles(scene, object, [&](const TriangleCorner(&c)[3], bool) {
     facets.push_back({{c[0].position, c[1].position, c[2].position}});
     return true;
@@ -136,20 +71,20 @@ Body make_body(const Scene& scene, const Object& object) {
   Body body;
   body.object = &object;
   body.bounds = object_bounds(scene, object);
-  if (object.shape == Object::Shape::sphere) {
+  body.radius = kind_of(object).ball_radius(object);
+  if (body.radius > 0) {
     body.centre = object.transform.translation;
-    body.radius = object.radius * std::cbrt(std::fabs(object.transform.determinant()));
     body.closed = true;
     return body;
   }
   body.facets = object_facets(scene, object);
-  body.closed = object.shape == Object::Shape::bezier ? is_closed_curve(object) : is_closed(body.facets);
+  body.closed = kind_of(object).is_closed_of_facets(object) || is_closed(body.facets);
   return body;
 }
 
 bool Body::holds(Vec3 point) const {
   if (radius > 0) return length(point - centre) < radius;
-  if (object->shape == Object::Shape::plane) return object->transform.inverse().point(point).z < 0;
+  if (is_infinite(*object)) return object->transform.inverse().point(point).z < 0;
   if (!closed) {
     const Vec3 direction = mean_normal();
     int exits = 0;
@@ -164,7 +99,7 @@ bool Body::holds(Vec3 point) const {
 
 Vec3 Body::mean_normal() const {
   Vec3 sum;
-  if (object->shape == Object::Shape::plane) sum = object->transform.inverse().rows[2];
+  if (is_infinite(*object)) sum = object->transform.inverse().rows[2];
   for (const auto& facet : facets) sum = sum + facet.normal();
   const double size = length(sum);
   return size > 0 ? sum / size : Vec3{};

@@ -3,20 +3,12 @@
 
 #include <vector>
 
-#include "scene/object_bounds.hpp"
+#include "scene/facet.hpp"
 
 namespace causticl {
 
-/// A flat piece of a surface, counter-clockwise seen from outside, in world space.
-struct Facet {
-  Vec3 corner[3];
-
-  Vec3 normal() const { return cross(corner[1] - corner[0], corner[2] - corner[0]); }  // twice the area long
-  BoundingBox bounds() const;
-};
-
-/// The triangles of an object at time 0; disks and revolved curves cut into flat pieces. None of spheres,
-/// which are known exactly, and of planes, which are infinite.
+/// The triangles of an object at time 0; other shapes cut into flat pieces. None of balls, which are known
+/// exactly, and of infinite planes.
 std::vector<Facet> object_facets(const Scene& scene, const Object& object);
 
 /// An object that may hold others.
@@ -24,9 +16,9 @@ struct Body {
   const Object* object = nullptr;
   std::vector<Facet> facets;
   BoundingBox bounds;   // at time 0
-  Vec3 centre;          // sphere
-  double radius = 0;    // sphere, in the world; 0 of all else
-  bool closed = false;  // a sphere, or facets of which every edge has two, one in each direction
+  Vec3 centre;          // of a ball
+  double radius = 0;    // of a ball, in the world; 0 of all else
+  bool closed = false;  // a ball, or facets of which every edge has two, one in each direction
 
   /// Whether the point lies inside: by the distance from the centre, or by the winding number of the facets
   /// (Van Oosterom & Strackee 1983), which no edge can mislead. What is open holds what lies behind it: the

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "scene/shape_kind.hpp"
+
 namespace causticl {
 namespace {
-
-using Shape = Object::Shape;
 
 // Pairs of facets beyond which whole boxes are compared in their place.
 constexpr std::size_t most_pairs = 20'000'000;
@@ -130,9 +130,9 @@ double contact_tolerance(const BoundingBox& bounds) {
 }
 
 BoundingBox touching_faces(const Body& a, const Body& b, double tolerance) {
-  if (a.object->shape == Shape::plane && b.object->shape == Shape::plane) return {};
-  if (a.object->shape == Shape::plane) return touching_plane(b, plane_of(*a.object), tolerance);
-  if (b.object->shape == Shape::plane) return touching_plane(a, plane_of(*b.object), tolerance);
+  if (is_infinite(*a.object) && is_infinite(*b.object)) return {};
+  if (is_infinite(*a.object)) return touching_plane(b, plane_of(*a.object), tolerance);
+  if (is_infinite(*b.object)) return touching_plane(a, plane_of(*b.object), tolerance);
   if (!overlap(a.bounds.grown(tolerance), b.bounds)) return {};
   if (a.radius > 0 && b.radius > 0) return tangent_spheres(a, b, tolerance);
   if (a.radius > 0 || b.radius > 0) {
@@ -148,7 +148,7 @@ BoundingBox touching_faces(const Body& a, const Body& b, double tolerance) {
 }
 
 bool surfaces_meet(const Body& a, const Body& b, double tolerance) {
-  if (a.object->shape == Shape::plane || b.object->shape == Shape::plane) return true;
+  if (is_infinite(*a.object) || is_infinite(*b.object)) return true;
   if (!overlap(a.bounds.grown(tolerance), b.bounds)) return false;
   if (a.radius > 0 && b.radius > 0) return length(a.centre - b.centre) <= a.radius + b.radius + tolerance;
   if (a.radius > 0 || b.radius > 0) {

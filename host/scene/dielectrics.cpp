@@ -4,11 +4,10 @@
 
 #include "scene/contact.hpp"
 #include "scene/material_kind.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
-
-using Shape = Object::Shape;
 
 /// How much of one surface another body holds, as far as some points tell.
 enum class Held { nothing, part, all };
@@ -106,7 +105,7 @@ class Finder {
     }
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& object = scene_.objects[i];
-      if (!(max_component(material(object).emission) > 0) || object.shape == Shape::plane) continue;
+      if (!(max_component(material(object).emission) > 0) || is_infinite(object)) continue;
       const Body body = make_body(scene_, object);
       std::string names;
       for (std::size_t k = 0; k < glass_.size(); ++k)
@@ -132,8 +131,7 @@ class Finder {
       BoundingBox region;
       if (moves(object) || moves(other))
         region = intersection(swept_bounds(scene_, object).grown(tolerance), swept_bounds(scene_, other));
-      else if (other.shape == Shape::plane ||
-               overlap(glass_[i].bounds.grown(tolerance), object_bounds(scene_, other)))
+      else if (is_infinite(other) || overlap(glass_[i].bounds.grown(tolerance), object_bounds(scene_, other)))
         region = touching_faces(glass_[i], make_body(scene_, other), tolerance);
       if (region.empty()) continue;
       result_.contact.add(region);

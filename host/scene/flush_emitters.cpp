@@ -6,6 +6,7 @@
 
 #include "scene/body.hpp"
 #include "scene/material_kind.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -52,7 +53,6 @@ bool is_pane(const MaterialSpec& material) { return is_transparent(material) && 
 
 /// The emitter or pane that an object is, if all its facets lie in one plane.
 std::optional<FlatEmitter> flat_emitter(const Scene& scene, const Object& object) {
-  if (object.shape == Object::Shape::plane || object.shape == Object::Shape::sphere) return {};
   if (!is_lit(scene, object) && !is_pane(material_of(scene, object))) return {};
   FlatEmitter emitter;
   const auto facets = object_facets(scene, object);
@@ -129,7 +129,7 @@ class Facets {
 void add_heights(const Scene& scene, std::size_t index, const FlatEmitter& emitter, Facets& facets,
                  std::size_t& pairs, Heights& heights) {
   const Object& other = scene.objects[index];
-  if (other.shape == Object::Shape::plane) {
+  if (is_infinite(other)) {
     const Vec3 at = other.transform.translation, n = normalize(other.transform.inverse().rows[2]);
     for (const Vec3& point : emitter.points)
       add_height(emitter, point, n, at, largest_coordinate(at), other, heights);

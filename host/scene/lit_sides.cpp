@@ -6,6 +6,7 @@
 #include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "scene/object_sides.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -26,35 +27,27 @@ class LitSidesFinder {
       corners_.push_back(object_corners(scene, object));
       if (max_component(material(object).emission) > 0) {
         sources_.push_back({causticl::swept_bounds(scene, object), &object});
-        endless_ = endless_ || object.shape == Object::Shape::plane;
+        endless_ = endless_ || is_infinite(object);
       }
     }
   }
 
   LitSides find() {
     for (const auto& object : scene_.objects)
-      if (object.shape == Object::Shape::plane) sides_.shapes.push_back(of_flat(object));
-    for (const auto& object : scene_.objects) switch (object.shape) {
-        case Object::Shape::plane:
-          break;
-        case Object::Shape::mesh:
-          add_mesh(object);
-          break;
-        case Object::Shape::rectangle:
-          add_triangles(2, of_flat(object));
-          break;
-        case Object::Shape::box:
-          add_triangles(12, is_dark_inside(object) ? 1 : 0);
-          break;
-        case Object::Shape::sphere:
-          sides_.shapes.push_back(is_dark_inside(object) ? 1 : 0);
-          break;
-        case Object::Shape::disk:
-          sides_.shapes.push_back(of_flat(object));
-          break;
-        case Object::Shape::bezier:
-          sides_.shapes.push_back(0);
+      if (is_infinite(object)) sides_.shapes.push_back(of_flat(object));
+    for (const auto& object : scene_.objects) {
+      if (is_infinite(object)) continue;
+      if (object.mesh >= 0) {
+        add_mesh(object);
+        continue;
       }
+      const bool dark_inside = kind_of(object).is_convex_body(object) && is_dark_inside(object);
+      const int side = is_flat(object) ? of_flat(object) : dark_inside ? 1 : 0;
+      if (is_made_of_triangles(object))
+        add_triangles(kind_of(object).triangles(scene_, object), side);
+      else
+        sides_.shapes.push_back(side);
+    }
     return std::move(sides_);
   }
 

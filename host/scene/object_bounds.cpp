@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/shape_kind.hpp"
+
 namespace causticl {
 
 void BoundingBox::add(Vec3 p) {
@@ -25,12 +27,6 @@ void BoundingBox::add_ellipsoid(const Transform& transform, Vec3 centre, Vec3 ha
   }
   add(transform.point(centre) - extent);
   add(transform.point(centre) + extent);
-}
-
-void BoundingBox::add_box(const Transform& transform, Vec3 size) {
-  for (int corner = 0; corner < 8; ++corner)
-    add(transform.point({size.x * ((corner & 1) - 0.5), size.y * ((corner >> 1 & 1) - 0.5),
-                         size.z * ((corner >> 2 & 1) - 0.5)}));
 }
 
 BoundingBox BoundingBox::grown(double margin) const {
@@ -58,34 +54,7 @@ BoundingBox intersection(const BoundingBox& a, const BoundingBox& b) {
 }
 
 BoundingBox object_bounds(const Scene& scene, const Object& object) {
-  BoundingBox bounds;
-  const double r = object.radius;
-  switch (object.shape) {
-    case Object::Shape::plane:
-      break;  // infinite
-    case Object::Shape::sphere:
-      bounds.add_ellipsoid(object.transform, {}, {r, r, r});
-      break;
-    case Object::Shape::disk:
-      bounds.add_ellipsoid(object.transform, {}, {r, r, 0});
-      break;
-    case Object::Shape::rectangle:
-      bounds.add_box(object.transform, {1, 1, 0});
-      break;
-    case Object::Shape::box:
-      bounds.add_box(object.transform, object.size);
-      break;
-    case Object::Shape::mesh:
-      for (const auto& p : scene.meshes[static_cast<std::size_t>(object.mesh)].positions)
-        bounds.add(object.transform.point({p[0], p[1], p[2]}));
-      break;
-    case Object::Shape::bezier:
-      // A Bezier curve lies in the convex hull of its control points, and so does what it sweeps.
-      for (const auto& p : object.points)
-        bounds.add_ellipsoid(object.transform, {0, p[1], 0}, {p[0], 0, p[0]});
-      break;
-  }
-  return bounds;
+  return kind_of(object).bounds(scene, object);
 }
 
 BoundingBox swept_bounds(const Scene& scene, const Object& object) {

@@ -17,8 +17,6 @@ struct BoundingBox {
   void add(const BoundingBox& other);
   /// The image of the local ellipsoid about `centre` with these half axes.
   void add_ellipsoid(const Transform& transform, Vec3 centre, Vec3 half_axes);
-  /// The image of the local box about the origin with these edge lengths.
-  void add_box(const Transform& transform, Vec3 size);
   /// Grown by `margin` on every side.
   BoundingBox grown(double margin) const;
 };

@@ -7,9 +7,6 @@
 
 namespace causticl {
 
-/// Whether it is an infinite plane, a rectangle or a disk.
-bool is_flat(const Object& object);
-
 /// Corners of a box around the object, in world space at time 0; of an infinite plane none.
 std::vector<Vec3> object_corners(const Scene& scene, const Object& object);
 

@@ -1,4 +1,4 @@
-// Objects that are made of triangles (meshes, rectangles and boxes), in world space.
+// Objects that are made of triangles, in world space.
 #pragma once
 
 #include <functional>
@@ -22,6 +22,10 @@ using TriangleVisitor = std::function<bool(const TriangleCorner (&)[3], bool smo
 /// Visits the triangles of the object one after another, wound counter-clockwise seen from outside. False
 /// where the visitor ended that; nothing is visited of an object of another kind.
 bool visit_triangles(const Scene& scene, const Object& object, const TriangleVisitor& visit);
+
+/// Visits the two halves of a flat quadrangle.
+bool visit_quad(const TriangleCorner& a, const TriangleCorner& b, const TriangleCorner& c,
+                const TriangleCorner& d, const TriangleVisitor& visit);
 
 /// Whether one of the object's triangles is, or may be where the object has moved to, so thin that what is
 /// left of the cross product of its edges has to be computed more exactly than in float (EFFECT_SLIVERS).

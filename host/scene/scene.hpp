@@ -11,6 +11,7 @@
 #include "image/image.hpp"
 #include "mesh/mesh.hpp"
 #include "shared/materials.h"
+#include "shared/shapes.h"
 
 namespace causticl {
 
@@ -45,7 +46,11 @@ struct MaterialSpec {
 };
 
 struct Object {
-  enum class Shape { sphere, plane, rectangle, disk, box, mesh, bezier };
+#define SHAPE_OF_ROW(x, NAME, number, name, type, effect) name,
+#define TRIANGLES_OF_ROW(x, name, type) name,
+  enum class Shape { SHAPE_TABLE(SHAPE_OF_ROW, ) TRIANGLE_SHAPE_TABLE(TRIANGLES_OF_ROW, ) };
+#undef SHAPE_OF_ROW
+#undef TRIANGLES_OF_ROW
   Shape shape = Shape::sphere;
   std::string pointer;  // JSON pointer, "/objects/3"; "/renderer" for the disc light
   Transform transform;  // local to world

@@ -14,7 +14,7 @@ namespace causticl {
 namespace {
 
 constexpr const char* source = R"(
-#include "shapes/bezier.cl"
+#include "shapes/primitives/bezier.cl"
 #include "sampling/rng.cl"
 // A ray (number of the curve, origin, direction) and what it meets (t, u, error, position, normal).
 OUTLINE void intersect_one(global const float *in, global float *out, global const Shape *shapes, global const float *curves,

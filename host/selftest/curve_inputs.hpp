@@ -1,7 +1,7 @@
 // Revolved curves, and rays that ask most of their intersection.
 #pragma once
 
-#include "accel/curve.hpp"
+#include "scene/curve.hpp"
 #include "selftest/input_random.hpp"
 
 namespace causticl {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "accel/curve.hpp"
+#include "scene/curve.hpp"
 
 namespace causticl {
 

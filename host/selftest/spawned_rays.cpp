@@ -4,7 +4,7 @@
 // 1e-8 to 1e8, a quarter of them at the origin, the others up to 10^4 of their sizes away from it.
 #include <atomic>
 
-#include "accel/curve.hpp"
+#include "scene/curve.hpp"
 #include "selftest/random_check.hpp"
 #include "selftest/spawned_ray.hpp"
 #include "selftest/stability_checks.hpp"

@@ -1,7 +1,7 @@
 // Frames about a direction.
 #pragma once
 
-#include "world/float4.hpp"
+#include "scene/float4.hpp"
 
 namespace causticl {
 

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/spelling.hpp"
+#include "scene/shape_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -63,10 +64,7 @@ Values filters(const ParameterContext& context) {
 }
 
 bool has_triangles(const Scene& scene) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
-    return object.shape == Object::Shape::mesh || object.shape == Object::Shape::box ||
-           object.shape == Object::Shape::rectangle;
-  });
+  return std::any_of(scene.objects.begin(), scene.objects.end(), is_made_of_triangles);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/float4.hpp"
 #include "world/environment.hpp"
-#include "world/float4.hpp"
 
 namespace causticl {
 namespace {

@@ -102,7 +102,7 @@ TEST_CASE("kernels that all users may write to are not built") {
   const TemporaryFolder folder;
   fs::copy(CAUSTICL_SOURCE_DIR "/cl", folder.path("cl"), fs::copy_options::recursive);
   const Words words = a_render + Words{"--kernel-dir", "cl"};
-  for (const char* open : {"cl", "cl/passes", "cl/passes/pass_film.cl"}) {
+  for (const char* open : {"cl", "cl/passes", "cl/passes/pass_film.cl", "cl/shapes"}) {
     const auto before = fs::status(folder.path(open)).permissions();
     fs::permissions(folder.path(open), fs::perms::others_write, fs::perm_options::add);
     check_one_error(run_causticl(words, folder.path("")), 2,

@@ -13,16 +13,18 @@ namespace causticl {
 /// The rooms of host/, each with those that it may include beside itself and cl/shared.
 inline const std::map<std::string, std::set<std::string>>& host_rooms() {
   static const std::map<std::string, std::set<std::string>> rooms = [] {
-    std::map<std::string, std::set<std::string>> result{{"base", {}},
-                                                        {"image", {"base"}},
-                                                        {"mesh", {"base"}},
-                                                        {"scene", {"base", "image", "mesh"}},
-                                                        {"format", {"base", "image", "mesh", "scene"}},
-                                                        {"accel", {"base"}},
-                                                        {"world", {"base", "accel", "scene"}},
-                                                        {"effects", {"base", "scene", "world"}},
-                                                        {"opencl", {"base", "accel", "effects"}},
-                                                        {"accuracy", {"base", "image"}}};
+    std::map<std::string, std::set<std::string>> result{
+        {"base", {}},
+        {"image", {"base"}},
+        {"mesh", {"base"}},
+        {"scene", {"base", "image", "mesh"}},
+        {"format", {"base", "image", "mesh", "scene"}},
+        {"shapes", {"base", "image", "mesh", "scene", "format"}},
+        {"accel", {"base"}},
+        {"world", {"base", "accel", "scene"}},
+        {"effects", {"base", "scene", "world"}},
+        {"opencl", {"base", "accel", "effects"}},
+        {"accuracy", {"base", "image"}}};
     const auto above = [&](const std::string& room, const std::string& highest, std::set<std::string> more) {
       more.insert(result.at(highest).begin(), result.at(highest).end());
       more.insert(highest);

@@ -1,4 +1,6 @@
 // Every file of cl/ includes what it uses, and includes depend on no condition.
+#include <filesystem>
+
 #include "catch2.hpp"
 
 #include "base/error.hpp"
@@ -36,4 +38,26 @@ TEST_CASE("an include under a condition is refused, and one file is included onc
   CHECK(flat.find("int c;") == flat.rfind("int c;"));
   CHECK(flat.find("int b;") == flat.rfind("int b;"));
   CHECK(flat.find("pragma once") == flat.npos);
+}
+
+TEST_CASE("an include of a folder stands for every kernel file in it, in order") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("parts/deeper"));
+  folder.write("parts/b.cl", "int b;\n");
+  folder.write("parts/a.cl", "int a;\n");
+  folder.write("parts/notes.txt", "not C\n");
+  folder.write("parts/deeper/c.cl", "int c;\n");
+  const std::string flat =
+      flatten_kernel_text("#include \"parts/b.cl\"\n#include \"parts/*.cl\"\n", folder.path(""));
+  CHECK(flat.find("int b;") < flat.find("int a;"));
+  CHECK(flat.find("int b;") == flat.rfind("int b;"));
+  CHECK(flat.find("int a;") != flat.npos);
+  CHECK(flat.find("not C") == flat.npos);
+  CHECK(flat.find("int c;") == flat.npos);
+  CHECK(flat.find("#line 3 \"inline\"") != flat.npos);
+  CHECK_THROWS_WITH(flatten_kernel_text("#include \"empty/*.cl\"\n", folder.path("")),
+                    Catch::Contains("kernel sources empty/*.cl: no such files"));
+  const std::string embedded = flatten_kernel_text("#include \"shapes/primitives/*.cl\"\n");
+  for (const char* shape : {"sphere_intersect", "plane_intersect", "disk_intersect", "bezier_intersect"})
+    CHECK(embedded.find(shape) != embedded.npos);
 }

@@ -1,4 +1,4 @@
-#include "accel/curve.hpp"
+#include "scene/curve.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -12,8 +12,8 @@ namespace causticl {
 /// same surface as |x|, which is the profile that everything below speaks of.
 using CurvePoints = std::vector<std::array<double, 2>>;
 
-/// The curve as cl/shapes/bezier.cl reads it: see the layout there. The curve is scaled into the unit
-/// cylinder and cut into spans on which |x|, y and the direction of the tangent are monotone and the
+/// The curve as cl/shapes/primitives/bezier.cl reads it: see the layout there. The curve is scaled into the
+/// unit cylinder and cut into spans on which |x|, y and the direction of the tangent are monotone and the
 /// direction turns little; a span holds polynomials of degree 5 that differ from the curve by less than
 /// float's rounding. A curve without area (a point, a piece of the axis) has no spans.
 std::vector<float> curve_data(const CurvePoints& points);

@@ -10,7 +10,8 @@ INLINE real3 plane_centre(global const Shape *shape) {
 }
 
 // The t > 0 where the ray meets the plane, below t_max, or INFINITY. A ray in the plane does not meet it.
-INLINE real plane_intersect(global const Shape *shape, Ray ray, real t_max) {
+INLINE real plane_intersect(global const Shape *shape, global const float *curves, Ray ray, real t_max,
+                            real2 *parameters) {
   real3 row = convert_real3(shape->to_local[2].xyz);
   real t = dot3(row, plane_centre(shape) - ray.origin) / dot3(row, ray.direction);
   return t > 0 && t < t_max ? t : (real)INFINITY;
@@ -34,7 +35,7 @@ INLINE void plane_position(global const Shape *shape, Ray ray, Hit hit, Surface 
 }
 
 // uv: the distances from the image of the local origin along the world directions of local x and y.
-INLINE void plane_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
+INLINE void plane_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
   plane_position(shape, ray, hit, surface);
   global const float4 *rows = shape->to_world;
   real3 x_axis = normalize((real3)(rows[0].x, rows[1].x, rows[2].x));

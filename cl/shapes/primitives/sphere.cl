@@ -7,7 +7,8 @@
 // The discriminant is taken from the distance between the centre and the ray, and the roots from the form that
 // does not cancel: Haines, Gunther, Akenine-Moller, "Precision Improvements for Ray/Sphere Intersection", Ray
 // Tracing Gems ch. 7 (2019). No miss at a centre 1e5 radii away with a closest approach up to 0.95 radii.
-INLINE real sphere_intersect(global const Shape *shape, Ray ray, real t_max) {
+INLINE real sphere_intersect(global const Shape *shape, global const float *curves, Ray ray, real t_max,
+                             real2 *parameters) {
   real radius = shape->sphere.w;
   real3 f = ray.origin - convert_real3(shape->sphere.xyz);
   real b = -dot3(f, ray.direction);  // t of the closest approach
@@ -30,7 +31,7 @@ INLINE real sphere_intersect(global const Shape *shape, Ray ray, real t_max) {
 }
 
 // The surface at a hit; uv is the image mapping of the scene format: q = normalize(to_local p), (q.xy + 1) / 2.
-INLINE void sphere_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
+INLINE void sphere_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
   global const float *sphere = (global const float *)&shape->sphere;
   real3 centre = (real3)(sphere[0], sphere[1], sphere[2]);
   real radius = sphere[3];

@@ -1,9 +1,10 @@
 // Ray and the unit disc of the local plane z = 0: an ellipse under a general to_world.
-#include "shapes/plane.cl"
+#include "shapes/primitives/plane.cl"
 
 // The t > 0 where the ray meets the disc, below t_max, or INFINITY.
-INLINE real disk_intersect(global const Shape *shape, Ray ray, real t_max) {
-  real t = plane_intersect(shape, ray, t_max);
+INLINE real disk_intersect(global const Shape *shape, global const float *curves, Ray ray, real t_max,
+                           real2 *parameters) {
+  real t = plane_intersect(shape, curves, ray, t_max, parameters);
   if (!(t < t_max)) return INFINITY;
   // From the centre to the ray's origin first: the difference of near numbers is exact.
   real3 from_centre = fma((real3)(t), ray.direction, ray.origin - plane_centre(shape));
@@ -12,7 +13,7 @@ INLINE real disk_intersect(global const Shape *shape, Ray ray, real t_max) {
 }
 
 // uv: local x and y, [-1, 1] mapped to [0, 1].
-INLINE void disk_surface(global const Shape *shape, Ray ray, Hit hit, Surface *surface) {
+INLINE void disk_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
   plane_position(shape, ray, hit, surface);
   surface->uv = transform_vector(shape->to_local, surface->position - plane_centre(shape)).xy * (real)0.5 + (real)0.5;
 }

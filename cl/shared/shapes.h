@@ -1,0 +1,35 @@
+// The shapes: tables that the host and the kernels read. What the kernels know of one is in cl/shapes/primitives/NAME.cl,
+// what the host knows in host/shapes/NAME.cpp.
+#pragma once
+
+// Shapes that are primitives of their own on the device.
+// Columns: SHAPE_NAME is its number in records; that number; its enumerator, and its name in functions and files; its type
+// in scene files; its effect. `ROW(x, ...)` is made of each row.
+#define SHAPE_TABLE(ROW, x) \
+  ROW(x, SPHERE, 0, sphere, "sphere",        EFFECT_SPHERES) \
+  ROW(x, PLANE,  1, plane,  "plane",         EFFECT_PLANES)  \
+  ROW(x, DISK,   2, disk,   "disk",          EFFECT_DISKS)   \
+  ROW(x, BEZIER, 3, bezier, "bezier_rotate", EFFECT_BEZIER)
+
+// Their rows of EFFECT_TABLE: see effects.h for the columns.
+#define SHAPE_EFFECTS(ROW, x) \
+  ROW(x, SPHERES, 1, "spheres", IN_PATHS, BATCHED,                  SHAPE_LEAVES, "spheres") \
+  ROW(x, PLANES,  2, "planes",  IN_PATHS, SCALAR_PATHS,             UNBOUNDED,    "infinite planes") \
+  ROW(x, DISKS,   3, "disks",   IN_PATHS, SCALAR_PATHS,             SHAPE_LEAVES, "disks") \
+  ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "revolved curves")
+
+// Shapes that become triangles on upload: enumerator and name; type in scene files.
+#define TRIANGLE_SHAPE_TABLE(ROW, x) \
+  ROW(x, rectangle, "rectangle") \
+  ROW(x, box,       "box")       \
+  ROW(x, mesh,      "mesh")
+
+#ifdef __cplusplus
+enum ShapeType : unsigned {
+#else
+enum ShapeType {
+#endif
+#define SHAPE_NUMBER(x, NAME, number, name, type, effect) SHAPE_##NAME = number,
+  SHAPE_TABLE(SHAPE_NUMBER, )
+#undef SHAPE_NUMBER
+};
