@@ -10,9 +10,9 @@ namespace causticl {
 const std::map<std::string, std::string>& embedded_kernel_sources();
 
 /// The text of `file` with every #include "name" replaced once by that file (each file at most once, as with
-/// include guards) and #line directives, so that messages name the right place. "FOLDER/*.cl" stands for every
-/// file of the folder, in order. Reads `kernel_dir` live where it is not empty, else the embedded files. Throws
-/// UserError for a file that is not there.
+/// include guards) and #line directives, so that messages name the right place. "FOLDER/*.cl" stands for
+/// every file of the folder, in order. Reads `kernel_dir` live where it is not empty, else the embedded
+/// files. Throws UserError for a file that is not there.
 std::string flatten_kernel_source(const std::string& file, const std::string& kernel_dir = "");
 
 /// The same for a text that is not a file of cl/ (the tests' small kernels).
