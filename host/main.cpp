@@ -19,6 +19,7 @@
 #include "format/scene_output.hpp"
 #include "format/scene_schema.hpp"
 #include "render/explain.hpp"
+#include "scene/integrators.hpp"
 #include "selftest/selftest_processes.hpp"
 #include "selftest/stability_checks.hpp"
 #include "world/view_check.hpp"
@@ -85,7 +86,7 @@ int render(const Options& options) {
   for (const auto& notice : scene.notices) progress.note(notice);
   if (options.outputs.empty()) progress.note(scene_output(scene).notice);
   progress.note(empty_view_notice(scene));
-  if (scene.renderer.integrator == Integrator::sppm)
+  if (traces_photons(scene.renderer.integrator))
     for (const auto& notice : coarse_channel_notices(scene)) progress.note(notice);
   KernelCache kernels(options.keep_kernels);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
@@ -115,7 +116,7 @@ int explain(const Options& options) {
   if (!options.json.empty()) check_writable(options.json);
   const Scene scene = load_scene(options.scene, options.scene_options);
   Explanation explanation = explain(scene);
-  if (options.measure || (scene.renderer.integrator == Integrator::sppm && !list_devices().empty())) {
+  if (options.measure || (traces_photons(scene.renderer.integrator) && !list_devices().empty())) {
     KernelCache kernels(options.keep_kernels);
     Device device(find_device(options.device), options.threads, &kernels);
     explain_pilot(explanation, scene, device, render_options(options, {}));

@@ -6,15 +6,8 @@
 #pragma once
 
 #include "shared/materials.h"
+#include "shared/passes.h"
 #include "shared/shapes.h"
-
-// Programs whose kernels ask for an effect with HAS(); the other programs are compiled without it, and are the same
-// for every scene.
-#define IN_PHOTON 1u
-#define IN_CAMERA 2u
-#define IN_GATHER 4u
-#define IN_PATH 8u
-#define IN_PATHS (IN_PHOTON | IN_CAMERA | IN_PATH)  // wherever a ray is traced
 
 // Batched steps that cannot hold an effect, because it needs loops or arithmetic of whole vectors on the way. With such
 // an effect the step runs photon by photon, or path by path: then branches save work that a batch would do for nothing.
@@ -34,7 +27,8 @@
 #define UNBOUNDED 4u        // beside the tree
 
 // Columns: EFFECT_name is its bit; the number of that bit; the key, as --effects takes it and `explain` prints it; the
-// programs that read it; the steps that cannot be batched with it; where its primitives are; its name in text.
+// programs of passes.h whose kernels ask for it with HAS() (the others are compiled without it, and are the same for every
+// scene); the steps that cannot be batched with it; where its primitives are; its name in text.
 // What in a scene calls for an effect: the function of its name in host/effects/effect_reasons.cpp.
 // Those of shapes are in shapes.h, those of materials in materials.h. `ROW(x, ...)` is made of each row.
 #define EFFECT_TABLE(ROW, x) \
@@ -71,15 +65,12 @@ enum EffectBit {
 
 // Sets of effects. Constants of the preprocessor, since #if decides whether a batched step is compiled.
 #define EFFECT_IF_ANY(argument, name, bit, key, programs, scalar, geometry, text) | (1u << bit)
-#define EFFECT_IF_READ(wanted, name, bit, key, programs, scalar, geometry, text) \
-  | (((programs) & (wanted)) ? 1u << bit : 0u)
 #define EFFECT_IF_SCALAR(wanted, name, bit, key, programs, scalar, geometry, text) \
   | (((scalar) & (wanted)) ? 1u << bit : 0u)
 #define EFFECT_IF_GEOMETRY(wanted, name, bit, key, programs, scalar, geometry, text) \
   | (((geometry) & (wanted)) ? 1u << bit : 0u)
 
 #define EFFECT_ALL (0u EFFECT_TABLE(EFFECT_IF_ANY, ))
-#define EFFECTS_READ(programs) (0u EFFECT_TABLE(EFFECT_IF_READ, programs))
 #define EFFECTS_NOT_BATCHED(steps) (0u EFFECT_TABLE(EFFECT_IF_SCALAR, steps))
 #define EFFECTS_IN_SHAPE_LEAVES (0u EFFECT_TABLE(EFFECT_IF_GEOMETRY, SHAPE_LEAVES))
 #define EFFECTS_IN_LEAVES (0u EFFECT_TABLE(EFFECT_IF_GEOMETRY, SHAPE_LEAVES | TRIANGLE_LEAVES))

@@ -13,13 +13,10 @@ std::vector<const CLI::App*> all_commands(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// "render, devices or info".
 std::string command_names(const CLI::App& app) {
-  const auto commands = all_commands(app);
-  std::string names;
-  for (std::size_t i = 0; i < commands.size(); ++i)
-    names += (i == 0 ? "" : i + 1 == commands.size() ? " or " : ", ") + commands[i]->get_name();
-  return names;
+  std::vector<std::string> names;
+  for (const CLI::App* command : all_commands(app)) names.push_back(command->get_name());
+  return listed(names);
 }
 
 /// "--passes", "-D", ...

@@ -14,6 +14,7 @@
 
 #include "base/spelling.hpp"
 #include "format/option_values.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 
@@ -103,14 +104,15 @@ inline CLI::Validator one_of(const std::string& expected, const std::vector<std:
       "");
 }
 
-/// An integrator by any of its names, which becomes "sppm" or "pt".
+/// An integrator by any of its spellings, which becomes its name.
 inline CLI::Validator integrator_name() {
   return CLI::Validator(
       [](std::string& text) {
         const auto integrator = parse_integrator(text);
         if (!integrator)
-          return "expected sppm or pt, found '" + text + "'" + did_you_mean(text, integrator_names());
-        text = *integrator == Integrator::pt ? "pt" : "sppm";
+          return "expected " + listed(integrator_names()) + ", found '" + text + "'" +
+                 did_you_mean(text, integrator_spellings());
+        text = name_of(*integrator);
         return std::string();
       },
       "");

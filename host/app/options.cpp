@@ -27,7 +27,7 @@ void add_scene_options(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("SCENE", options.scene, "scene file (JSON)")->required()->type_name("");
   app.add_option("--integrator", texts.integrator, "in place of the scene's own")
       ->transform(integrator_name())
-      ->type_name("sppm|pt");
+      ->type_name(joined(integrator_names(), "|"));
   app.add_option("--size", texts.size, "pixels of the image, as in 640x480")
       ->check(
           expect("WxH in pixels, as in 640x480, each from 1 to " + std::to_string(largest_extent), is_size))
@@ -215,8 +215,7 @@ constexpr std::pair<const char*, Options::Command> commands[]{
 void read_texts(const Texts& texts, Options& options) {
   options.selftest.threads = options.threads;
   options.selftest.kernel_dir = options.kernel_dir;
-  if (!texts.integrator.empty())
-    options.scene_options.integrator = texts.integrator == "pt" ? Integrator::pt : Integrator::sppm;
+  if (!texts.integrator.empty()) options.scene_options.integrator = parse_integrator(texts.integrator);
   if (texts.precision == "double") options.precision = Precision::float64;
   if (texts.triangle_test == "precomputed") options.triangle_test = TriangleTest::precomputed;
   // Rays that leave a surface in double precision would meet it again where its transform was rounded.

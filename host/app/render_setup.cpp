@@ -5,8 +5,10 @@
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "base/spelling.hpp"
 #include "format/scene_output.hpp"
 #include "image/image.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 
@@ -14,19 +16,23 @@ void apply_options(const Options& options, Scene& scene) {
   auto& renderer = scene.renderer;
   // Who asks for an error wants as many passes as it takes.
   if (options.wanted_error) renderer.passes = renderer.samples = endless_passes;
-  const auto apply = [&](const auto& value, auto& target, Integrator owner, const std::string& option) {
+  const auto apply = [&](const auto& value, auto& target, const std::string& option,
+                         const std::vector<std::string>& owners) {
     if (!value) return;
-    if (renderer.integrator != owner) {
-      const bool for_pt = owner == Integrator::pt;
-      scene.notices.push_back(option + " has no effect: it belongs to " + (for_pt ? "pt" : "sppm") +
-                              " and this render uses " + (for_pt ? "sppm" : "pt"));
-      return;
-    }
-    target = *value;
+    const std::string own = name_of(renderer.integrator);
+    if (std::find(owners.begin(), owners.end(), own) == owners.end())
+      scene.notices.push_back(option + " has no effect: it belongs to " + listed(owners) +
+                              " and this render uses " + own);
+    else
+      target = *value;
   };
-  apply(options.passes, renderer.passes, Integrator::sppm, "--passes");
-  apply(options.photons, renderer.photons, Integrator::sppm, "--photons");
-  apply(options.samples, renderer.samples, Integrator::pt, "--samples");
+  const auto counted_by = [](int RendererSpec::*field) {
+    return integrators_with([=](const IntegratorRow& row) { return row.passes == field; });
+  };
+  apply(options.passes, renderer.passes, "--passes", counted_by(&RendererSpec::passes));
+  apply(options.photons, renderer.photons, "--photons",
+        integrators_with([](const IntegratorRow& row) { return traces_photons(row.integrator); }));
+  apply(options.samples, renderer.samples, "--samples", counted_by(&RendererSpec::samples));
 }
 
 std::vector<std::string> output_files(const Options& options, const Scene& scene) {

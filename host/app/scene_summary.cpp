@@ -6,8 +6,11 @@
 
 #include "app/report.hpp"
 #include "base/printable.hpp"
+#include "base/spelling.hpp"
 #include "format/scene_output.hpp"
+#include "integrators/integrators.hpp"
 #include "scene/dielectrics.hpp"
+#include "scene/integrators.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "scene/shape_kind.hpp"
@@ -24,14 +27,6 @@ std::string triple(Vec3 v) {
   return text.str();
 }
 
-/// "1 mesh", "3 meshes".
-std::string count(std::size_t number, const std::string& noun) {
-  const char* ending = number == 1                                                      ? ""
-                       : noun.back() == 'h' || noun.back() == 'x' || noun.back() == 's' ? "es"
-                                                                                        : "s";
-  return std::to_string(number) + " " + noun + ending;
-}
-
 void print_image(std::ostream& text, const Scene& scene) {
   text << "image       " << scene.width << " x " << scene.height << " pixels";
   if (!scene.output.empty()) text << ", to " << scene_output(scene).file;
@@ -39,32 +34,9 @@ void print_image(std::ostream& text, const Scene& scene) {
 }
 
 void print_integrator(std::ostream& text, const Scene& scene) {
-  const RendererSpec& r = scene.renderer;
-  if (r.integrator == Integrator::pt) {
-    text << "integrator  pt: " << count(static_cast<std::size_t>(r.samples), "sample") << " a pixel";
-  } else {
-    text << "integrator  sppm: " << r.passes << (r.passes == 1 ? " pass of " : " passes of ") << r.photons
-         << " photons, " << count(static_cast<std::size_t>(r.visible_points), "visible point")
-         << " a pixel, first radius ";
-    if (r.radius)
-      text << *r.radius;
-    else
-      text << "chosen from the scene";
-    if (indirect_radius(r) != 1) text << " (" << indirect_radius(r) << " times that for indirect light)";
-    if (r.schedule == Schedule::geometric)
-      text << ", geometric schedule with radius decay " << r.radius_decay;
-    else
-      text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
-           << r.alpha;
-    if (!r.boundary_correction) text << ", no boundary correction";
-    if (r.guided_photons)
-      text << (*r.guided_photons ? ", Metropolis photons" : ", without Metropolis photons");
-    if (r.aimed_photons)
-      text << (*r.aimed_photons ? ", photons by the projection map" : ", photons without a projection map");
-    text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
-  }
-  if (r.sampler == Sampler::independent) text << ", independent numbers";
-  text << "; at most " << count(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";
+  text << "integrator  " << name_of(scene.renderer.integrator) << ": " << integrator_text(scene.renderer);
+  if (scene.renderer.sampler == Sampler::independent) text << ", independent numbers";
+  text << "; at most " << counted(static_cast<std::size_t>(scene.max_depth), "surface hit") << " a path\n";
 }
 
 void print_camera(std::ostream& text, const CameraSpec& camera) {
@@ -83,7 +55,7 @@ void print_objects(std::ostream& text, const Scene& scene) {
   text << "objects     " << scene.objects.size();
   const char* separator = ": ";
   for (const auto& [shape, number] : shapes) {
-    text << separator << count(number, shape);
+    text << separator << counted(number, shape);
     separator = ", ";
   }
   text << "\n";
@@ -97,11 +69,11 @@ void print_objects(std::ostream& text, const Scene& scene) {
   }
   for (const auto& [index, number] : uses) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
-    text << "  mesh      " << printable_line(mesh.file) << ": " << count(mesh.triangles(), "triangle");
+    text << "  mesh      " << printable_line(mesh.file) << ": " << counted(mesh.triangles(), "triangle");
     if (number > 1) text << ", used " << number << " times";
     text << "\n";
   }
-  if (uses.size() > 1) text << "  in all    " << count(triangles, "triangle") << "\n";
+  if (uses.size() > 1) text << "  in all    " << counted(triangles, "triangle") << "\n";
 }
 
 void print_motion(std::ostream& text, const Scene& scene) {

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <numeric>
+#include <sstream>
 
 namespace causticl {
 namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // Optimal string alignment distance: insertions, deletions, replacements, swaps of neighbours.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -31,6 +28,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 const std::string* nearest_name(const std::string& text, const std::vector<std::string>& names) {
   // Three edits find nothing in a text that is far longer than any name; do not even compare it.
   const std::string* best = nullptr;
@@ -49,6 +51,31 @@ const std::string* nearest_name(const std::string& text, const std::vector<std::
 std::string did_you_mean(const std::string& text, const std::vector<std::string>& names) {
   const std::string* best = nearest_name(text, names);
   return best ? "; did you mean " + *best + "?" : "";
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::string joined(const std::vector<std::string>& names, const std::string& separator) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : separator) + names[i];
+  return text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
+std::string counted(std::size_t number, const std::string& noun) {
+  const char* ending = number == 1                                                      ? ""
+                       : noun.back() == 'h' || noun.back() == 'x' || noun.back() == 's' ? "es"
+                                                                                        : "s";
+  return std::to_string(number) + " " + noun + ending;
 }
 
 }  // namespace causticl

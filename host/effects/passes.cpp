@@ -1,9 +1,12 @@
 #include "effects/passes.hpp"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
+#include <stdexcept>
 
+#include "scene/integrators.hpp"
 #include "scene/material_kind.hpp"
+#include "shared/passes.h"
 
 namespace causticl {
 
@@ -31,9 +34,11 @@ std::string why_no_photons(const Scene& scene) {
 
 std::vector<PassPlan> plan_passes(const Scene& scene) {
   const std::string dark = has_light(scene) ? "" : "nothing emits light: the picture is black";
-  if (scene.renderer.integrator == Integrator::pt) return {{"path", dark}, {"film", dark}};
   const std::string photons = why_no_photons(scene);
-  return {{"photon", photons}, {"camera", dark}, {"grid", photons}, {"gather", dark}, {"film", dark}};
+  std::vector<PassPlan> plan;
+  for (const auto& program : programs_of(scene.renderer.integrator))
+    plan.push_back({program, (pass_row(program).properties & SERVES_PHOTONS) ? photons : dark});
+  return plan;
 }
 
 std::vector<std::string> passes_to_run(const std::vector<PassPlan>& plan) {
@@ -43,11 +48,14 @@ std::vector<std::string> passes_to_run(const std::vector<PassPlan>& plan) {
   return names;
 }
 
-const char* main_kernel(const std::string& pass) {
-  static const std::map<std::string, const char*> kernels{
-      {"photon", "trace_photons"},  {"camera", "trace_camera"}, {"grid", "move_photons"},
-      {"gather", "gather_photons"}, {"path", "trace_paths"},    {"film", "pixel_errors"}};
-  return kernels.at(pass);
+const PassRow& pass_row(const std::string& pass) {
+#define ROW_OF_PASS(x, NAME, name, bit, kernel, properties) {#name, IN_##NAME, #kernel, properties},
+  static constexpr PassRow rows[] = {PASS_TABLE(ROW_OF_PASS, )};
+#undef ROW_OF_PASS
+  const auto row =
+      std::find_if(std::begin(rows), std::end(rows), [&](const PassRow& each) { return pass == each.name; });
+  if (row == std::end(rows)) throw std::logic_error("no pass is called " + pass);
+  return *row;
 }
 
 std::string why_skipped(const std::vector<PassPlan>& plan, const std::string& pass) {

@@ -24,8 +24,15 @@ std::vector<PassPlan> plan_passes(const Scene& scene);
 /// The names of those that run.
 std::vector<std::string> passes_to_run(const std::vector<PassPlan>& plan);
 
-/// The kernel of a pass that runs whenever the pass does: its launches count the pass.
-const char* main_kernel(const std::string& pass);
+/// A row of PASS_TABLE.
+struct PassRow {
+  const char* name;
+  unsigned bit;             // IN_*
+  const char* main_kernel;  // that runs whenever the pass does: its launches count the pass
+  unsigned properties;
+};
+/// That of a pass. Throws std::logic_error where there is none.
+const PassRow& pass_row(const std::string& pass);
 
 /// Why that pass is skipped; empty where it runs.
 std::string why_skipped(const std::vector<PassPlan>& plan, const std::string& pass);

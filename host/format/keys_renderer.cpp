@@ -3,6 +3,7 @@
 
 #include "format/option_values.hpp"
 #include "format/scene_keys.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -17,7 +18,7 @@ constexpr NumberRange decay{1e-6, 1, "a number from 1e-6 to 1"};
 std::string integrator_pattern() {
   const std::string joint = "[-_ ]*";
   std::string result;
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : integrator_spellings()) {
     result += (result.empty() ? "" : "|") + joint;
     for (const char c : name)
       result +=
@@ -30,7 +31,7 @@ std::vector<SceneKey> rows_of_renderer() {
   using Described = Absent::Described;
   const RendererSpec absent;
   return {
-      {"type", choice({"sppm", "pt"}, integrator_pattern()), "sppm",
+      {"type", choice(integrator_names(), integrator_pattern()), "sppm",
        "integrator: stochastic progressive photon mapping or path tracing"},
       {"sample", integer(1, most), absent.samples, "pt: samples a pixel", "", "samples"},
       {"view_point_sample", integer(1, 1024), absent.visible_points, "sppm: visible points a pixel a pass",

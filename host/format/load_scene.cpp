@@ -8,6 +8,7 @@
 #include "format/scene_loader.hpp"
 #include "format/scene_output.hpp"
 #include "scene/flush_emitters.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -42,7 +43,7 @@ void read_integrator(const SceneObject& json, const SceneOptions& options, Scene
   if (settings) read_renderer(settings->object(), loader);
   if (options.integrator) renderer.integrator = *options.integrator;
   const Scene& scene = loader.scene;
-  if (renderer.integrator == Integrator::sppm &&
+  if (traces_photons(renderer.integrator) &&
       std::int64_t{scene.width} * scene.height * renderer.visible_points > visible_point_limit)
     (settings ? SceneNode(*settings) : SceneNode(json))
         .fail("expected at most 2^31 visible points in a pass, got " + std::to_string(scene.width) + "x" +

@@ -1,20 +1,14 @@
 #include "format/option_values.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
+#include "base/spelling.hpp"
+#include "scene/integrators.hpp"
+
 namespace causticl {
 namespace {
-
-struct IntegratorName {
-  const char* name;
-  Integrator integrator;
-};
-constexpr IntegratorName all_integrator_names[] = {
-    {"sppm", Integrator::sppm},          {"pt", Integrator::pt},          {"photon", Integrator::sppm},
-    {"photons", Integrator::sppm},       {"photonmap", Integrator::sppm}, {"photonmapper", Integrator::sppm},
-    {"photonmapping", Integrator::sppm}, {"ppm", Integrator::sppm},       {"path", Integrator::pt},
-    {"paths", Integrator::pt},           {"pathtracer", Integrator::pt},  {"pathtracing", Integrator::pt}};
 
 struct TimeUnit {
   const char* name;
@@ -22,11 +16,6 @@ struct TimeUnit {
 };
 constexpr TimeUnit time_units[] = {{"d", 86400}, {"h", 3600}, {"min", 60},  {"m", 60},
                                    {"sec", 1},   {"s", 1},    {"ms", 0.001}};
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 const TimeUnit* time_unit(const std::string& name) {
   for (const TimeUnit& unit : time_units)
@@ -77,18 +66,19 @@ std::optional<Integrator> parse_integrator(const std::string& text) {
   std::string letters;
   for (const char c : lower(text))
     if (c != '-' && c != '_' && c != ' ') letters += c;
-  for (const auto& [name, integrator] : all_integrator_names)
-    if (letters == name) return integrator;
+  for (const IntegratorRow& row : integrator_rows) {
+    const auto spellings = words_of(row.spellings);
+    if (letters == row.name || std::find(spellings.begin(), spellings.end(), letters) != spellings.end())
+      return row.integrator;
+  }
   return {};
 }
 
-const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& entry : all_integrator_names) list.emplace_back(entry.name);
-    return list;
-  }();
-  return names;
+std::vector<std::string> integrator_spellings() {
+  std::vector<std::string> spellings = integrator_names();
+  for (const IntegratorRow& row : integrator_rows)
+    for (const auto& word : words_of(row.spellings)) spellings.push_back(word);
+  return spellings;
 }
 
 }  // namespace causticl

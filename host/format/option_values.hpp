@@ -34,7 +34,7 @@ std::optional<double> parse_duration(const std::string& text);
 /// without what joins the words.
 std::optional<Integrator> parse_integrator(const std::string& text);
 
-/// "sppm" and "pt", and then all other names.
-const std::vector<std::string>& integrator_names();
+/// The names of all integrators, and then all other spellings.
+std::vector<std::string> integrator_spellings();
 
 }  // namespace causticl

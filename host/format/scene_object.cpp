@@ -1,5 +1,6 @@
 // The entries of `objects`.
 #include "format/shape_keys.hpp"
+#include "scene/integrators.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/shape_kind.hpp"
 
@@ -53,7 +54,7 @@ void read_object(const SceneValue& value, SceneLoader& loader) {
   const Scene& scene = loader.scene;
   const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
   if (is_infinite(object) && max_component(material.emission) > 0 &&
-      scene.renderer.integrator == Integrator::sppm)
+      traces_photons(scene.renderer.integrator))
     json.fail("an infinite light has no power to emit; use a rectangle or the integrator \"pt\"");
   loader.scene.objects.push_back(object);
 }

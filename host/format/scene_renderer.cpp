@@ -1,6 +1,7 @@
 // The key `renderer`.
 #include "format/option_values.hpp"
 #include "format/scene_loader.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -8,7 +9,7 @@ namespace {
 Integrator read_integrator_name(const SceneValue& json) {
   if (json.is(JsonValue::Kind::string))
     if (const auto integrator = parse_integrator(json.string())) return *integrator;
-  return json.choice() == 0 ? Integrator::sppm : Integrator::pt;
+  return integrator_rows[json.choice()].integrator;
 }
 
 }  // namespace

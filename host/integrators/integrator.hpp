@@ -14,6 +14,8 @@
 
 namespace causticl {
 
+struct Pilot;
+
 /// What one of several devices does of every pass: of n things those from first_of(n) up to end_of(n).
 struct PassFraction {
   double begin = 0, end = 1;
@@ -56,6 +58,9 @@ class PassIntegrator {
 
   /// What the integrator knows of every pixel beside its colour. Waits for the queue.
   virtual std::vector<Channel> channels() { return {}; }
+
+  /// What a pilot decided, where there is one.
+  virtual const Pilot* pilot() const { return nullptr; }
 
   /// When the first pass began on the device, and how long it ran before enqueue_pass(0).
   std::chrono::steady_clock::time_point began() const { return began_; }

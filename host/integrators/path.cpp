@@ -1,26 +1,53 @@
-#include "integrators/path.hpp"
-
+// Path tracing on the device: one sample a pixel a pass.
 #include <algorithm>
 
+#include "base/spelling.hpp"
+#include "device_scene/motion.hpp"
 #include "device_scene/params.hpp"
+#include "integrators/integrators.hpp"
+#include "integrators/primary_hits.hpp"
 
 namespace causticl {
+namespace {
 
-PathTracer::PathTracer(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film,
-                       Programs& programs, std::uint32_t seed)
-    : device_(device),
-      film_(film),
-      device_scene_(device_scene),
-      motion_(scene, device, device_scene, seed),
-      params_(scene_params(scene, device_scene, seed)),
-      trace_paths_(programs.kernel("path", "trace_paths")),
-      counters_(device.buffer(sizeof(Counters), "counters")),
-      chunk_(std::min(launch_chunk(device), film.pixels())),
-      primary_hit_bytes_(programs.options().camera_packets ? chunk_ * sizeof(PrimaryHit) : 0),
-      primary_hit_buffer_(device.buffer(primary_hit_bytes_, "first hits")),
-      primary_hits_(programs, "path", device_scene, counters_) {
+class PathTracer : public PassIntegrator {
+ public:
+  explicit PathTracer(const IntegratorInputs& in);
+
+  void enqueue_pass(std::uint32_t pass) override;
+  Totals finish() override;
+  double bytes_per_pixel() const override;
+
+ private:
+  Device& device_;
+  Film& film_;
+  const DeviceScene& device_scene_;
+  Motion motion_;
+  Params params_{};
+  cl::Kernel trace_paths_;
+  cl_uint first_argument_;
+  cl::Buffer counters_;
+  std::size_t chunk_;
+  std::size_t primary_hit_bytes_;
+  cl::Buffer primary_hit_buffer_;
+  PrimaryHits primary_hits_;
+  CounterTotals totals_;
+};
+
+PathTracer::PathTracer(const IntegratorInputs& in)
+    : device_(in.device),
+      film_(in.film),
+      device_scene_(in.device_scene),
+      motion_(in.scene, in.device, in.device_scene, in.seed),
+      params_(scene_params(in.scene, in.device_scene, in.seed)),
+      trace_paths_(in.programs.kernel("path", "trace_paths")),
+      counters_(in.device.buffer(sizeof(Counters), "counters")),
+      chunk_(std::min(launch_chunk(in.device), in.film.pixels())),
+      primary_hit_bytes_(in.programs.options().camera_packets ? chunk_ * sizeof(PrimaryHit) : 0),
+      primary_hit_buffer_(in.device.buffer(primary_hit_bytes_, "first hits")),
+      primary_hits_(in.programs, "path", in.device_scene, counters_) {
   device_.clear(counters_, sizeof(Counters));
-  first_argument_ = set_scene_arguments(trace_paths_, device_scene);
+  first_argument_ = set_scene_arguments(trace_paths_, in.device_scene);
   trace_paths_.setArg(first_argument_, film_.buffer());
   trace_paths_.setArg(first_argument_ + 1, counters_);
   trace_paths_.setArg(first_argument_ + 3, primary_hit_buffer_);
@@ -52,6 +79,18 @@ PassIntegrator::Totals PathTracer::finish() {
   result.rays = totals_.rays;
   result.diagnostics = totals_.diagnostics;
   return result;
+}
+
+}  // namespace
+
+std::unique_ptr<PassIntegrator> make_pt(const IntegratorInputs& in) {
+  return std::make_unique<PathTracer>(in);
+}
+
+ErrorRates rates_of_pt(const RendererSpec&) { return path_tracing_rates; }
+
+std::string text_of_pt(const RendererSpec& renderer) {
+  return counted(static_cast<std::size_t>(renderer.samples), "sample") + " a pixel";
 }
 
 }  // namespace causticl

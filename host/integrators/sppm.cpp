@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
+#include "base/spelling.hpp"
 #include "device_scene/params.hpp"
 #include "device_scene/walls.hpp"
 #include "effects/effects.hpp"
@@ -24,29 +26,29 @@ constexpr double segment_fraction = 0.3;
 
 }  // namespace
 
-Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-           std::uint32_t seed, bool with_photons, const Pilot* pilot)
-    : scene_(scene),
-      spec_(scene.renderer),
-      device_(device),
-      film_(film),
-      device_scene_(device_scene),
-      programs_(programs),
-      motion_(scene, device, device_scene, seed),
-      params_(scene_params(scene, device_scene, seed)),
-      counters_(device.buffer(sizeof(Counters), "counters")),
-      guide_(device_scene, device, programs, static_cast<std::uint32_t>(scene.renderer.photons),
-             scene.renderer.guided_photons.value_or(false) && with_photons),
-      aim_(device, (programs.options().effects & EFFECT_AIMED_PHOTONS) ? device_scene.emitter_count : 0,
-           static_cast<std::uint32_t>(scene.renderer.photons),
-           with_photons && (effect_bits(find_effects(scene)) & EFFECT_AIMED_PHOTONS)),
-      photon_map_(device_scene, device, programs, counters_, guide_, aim_),
-      with_photons_(with_photons && params_.emitter_count > 0),
-      walled_(with_photons_ && (effect_bits(find_effects(scene)) & EFFECT_WALLS)),
-      visible_point_bytes_((sizeof(VisiblePoint) + (film.has_layers() ? sizeof(VisibleLightPasses) : 0) +
-                            ((programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
-                           record_scale(programs.options().precision)),
-      unknown_(device, programs) {
+Sppm::Sppm(const IntegratorInputs& in)
+    : scene_(in.scene),
+      spec_(in.scene.renderer),
+      device_(in.device),
+      film_(in.film),
+      device_scene_(in.device_scene),
+      programs_(in.programs),
+      motion_(in.scene, in.device, in.device_scene, in.seed),
+      params_(scene_params(in.scene, in.device_scene, in.seed)),
+      counters_(in.device.buffer(sizeof(Counters), "counters")),
+      guide_(in.device_scene, in.device, in.programs, static_cast<std::uint32_t>(spec_.photons),
+             spec_.guided_photons.value_or(false) && in.with_photons),
+      aim_(in.device,
+           (in.programs.options().effects & EFFECT_AIMED_PHOTONS) ? in.device_scene.emitter_count : 0,
+           static_cast<std::uint32_t>(spec_.photons),
+           in.with_photons && (effect_bits(find_effects(in.scene)) & EFFECT_AIMED_PHOTONS)),
+      photon_map_(in.device_scene, in.device, in.programs, counters_, guide_, aim_),
+      with_photons_(in.with_photons && params_.emitter_count > 0),
+      walled_(with_photons_ && (effect_bits(find_effects(in.scene)) & EFFECT_WALLS)),
+      visible_point_bytes_((sizeof(VisiblePoint) + (in.film.has_layers() ? sizeof(VisibleLightPasses) : 0) +
+                            ((in.programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
+                           record_scale(in.programs.options().precision)),
+      unknown_(in.device, in.programs) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
@@ -58,29 +60,29 @@ Sppm::Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& 
   pixels_ = device_.buffer(film_.pixels() * sizeof(SppmPixel), "pixel statistics");
 
   // The first pass begins here, while programs that it needs later are still being built.
-  if (with_photons_) photon_map_.prepare(programs);
+  if (with_photons_) photon_map_.prepare(programs_);
   began_ = Clock::now();
   start_pass(0);
   early_seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
-  trace_camera_ = programs.kernel("camera", "trace_camera");
-  gather_photons_ = programs.kernel("gather", "gather_photons");
-  primary_hits_ = PrimaryHits(programs, "camera", device_scene, counters_);
-  first_argument_ = set_scene_arguments(trace_camera_, device_scene);
+  trace_camera_ = programs_.kernel("camera", "trace_camera");
+  gather_photons_ = programs_.kernel("gather", "gather_photons");
+  primary_hits_ = PrimaryHits(programs_, "camera", device_scene_, counters_);
+  first_argument_ = set_scene_arguments(trace_camera_, device_scene_);
   trace_camera_.setArg(first_argument_ + 1, counters_);
   trace_camera_.setArg(first_argument_ + 3, pixels_);
 
   walls_ = device_.upload(no_walls(), "walls");
   trace_camera_.setArg(first_argument_ + 4, walls_);
-  if (pilot)
-    adopt(*pilot);
+  if (in.pilot)
+    adopt(*in.pilot);
   else
     pilot_ = run_pilot();
-  smallest_radius2_ = 1e-12 * length_scale(device_scene) * length_scale(device_scene);
+  smallest_radius2_ = 1e-12 * length_scale(device_scene_) * length_scale(device_scene_);
   guide_.set_radius(pilot_.first_radius);
   unknown_.set_view(pilot_.around);
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);  // the passes alone are reported
   schedule_radius2_ = pilot_.first_radius * pilot_.first_radius;
-  cl::Kernel start_pixels = programs.kernel("gather", "start_pixels");
+  cl::Kernel start_pixels = programs_.kernel("gather", "start_pixels");
   set_arguments(start_pixels, pixels_, static_cast<cl_uint>(film_.pixels()),
                 static_cast<float>(schedule_radius2_));
   device_.launch_pass(start_pixels, film_.pixels());
@@ -218,6 +220,32 @@ std::vector<Channel> Sppm::channels() {
 double Sppm::bytes_per_pixel() const {
   const double chunk = static_cast<double>(chunk_pixels_ * params_.visible_points * visible_point_bytes_);
   return sizeof(SppmPixel) + (own_visible_points_() ? chunk / static_cast<double>(film_.pixels()) : 0);
+}
+
+std::unique_ptr<PassIntegrator> make_sppm(const IntegratorInputs& in) { return std::make_unique<Sppm>(in); }
+
+ErrorRates rates_of_sppm(const RendererSpec& renderer) { return sppm_rates(renderer.alpha); }
+
+std::string text_of_sppm(const RendererSpec& r) {
+  std::ostringstream text;
+  text << r.passes << (r.passes == 1 ? " pass of " : " passes of ") << r.photons << " photons, "
+       << counted(static_cast<std::size_t>(r.visible_points), "visible point") << " a pixel, first radius ";
+  if (r.radius)
+    text << *r.radius;
+  else
+    text << "chosen from the scene";
+  if (indirect_radius(r) != 1) text << " (" << indirect_radius(r) << " times that for indirect light)";
+  if (r.schedule == Schedule::geometric)
+    text << ", geometric schedule with radius decay " << r.radius_decay;
+  else
+    text << ", " << (r.schedule == Schedule::pixel ? "pixel" : "global") << " schedule with alpha "
+         << r.alpha;
+  if (!r.boundary_correction) text << ", no boundary correction";
+  if (r.guided_photons) text << (*r.guided_photons ? ", Metropolis photons" : ", without Metropolis photons");
+  if (r.aimed_photons)
+    text << (*r.aimed_photons ? ", photons by the projection map" : ", photons without a projection map");
+  text << ", direct light by " << (r.direct_light == DirectLight::photons ? "photons" : "shadow rays");
+  return text.str();
 }
 
 }  // namespace causticl

@@ -8,6 +8,7 @@
 #include "device_scene/motion.hpp"
 #include "integrators/film.hpp"
 #include "integrators/integrator.hpp"
+#include "integrators/integrators.hpp"
 #include "integrators/primary_hits.hpp"
 #include "integrators/unknown_error.hpp"
 #include "photons/photon_map.hpp"
@@ -18,10 +19,7 @@ namespace causticl {
 
 class Sppm : public PassIntegrator {
  public:
-  /// Without `with_photons` none are traced: the plan of passes.hpp says when that changes no picture. What
-  /// `pilot` decided holds; where there is none, a pilot runs.
-  Sppm(const Scene& scene, DeviceScene& device_scene, Device& device, Film& film, Programs& programs,
-       std::uint32_t seed, bool with_photons, const Pilot* pilot);
+  explicit Sppm(const IntegratorInputs& in);
 
   void enqueue_pass(std::uint32_t pass) override;
   void trace_own_photons(std::uint32_t pass) override { start_pass(pass); }
@@ -34,8 +32,7 @@ class Sppm : public PassIntegrator {
   std::vector<Channel> channels() override;
   double bytes_per_pixel() const override;
 
-  double first_radius() const { return pilot_.first_radius; }
-  const Pilot& pilot() const { return pilot_; }
+  const Pilot* pilot() const override { return &pilot_; }
 
  private:
   const Scene& scene_;

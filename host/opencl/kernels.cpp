@@ -3,24 +3,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "base/error.hpp"
+#include "effects/passes.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "shared/effects.h"
 
 namespace causticl {
 namespace {
-
-/// What the kernels of each pass ask for with HAS().
-const std::map<std::string, unsigned> effects_read{
-    {"photon", EFFECTS_READ(IN_PHOTON) | OUTPUT_LIGHT_PASSES},
-    {"camera", EFFECTS_READ(IN_CAMERA) | OUTPUT_LIGHT_PASSES},
-    {"grid", 0},
-    {"gather", EFFECTS_READ(IN_GATHER) | OUTPUT_LIGHT_PASSES},
-    {"film", 0},
-    {"path", EFFECTS_READ(IN_PATH) | OUTPUT_LIGHT_PASSES},
-};
 
 void dump(const std::string& folder, const std::string& pass, const std::string& source) {
   std::error_code error;
@@ -35,7 +25,15 @@ void dump(const std::string& folder, const std::string& pass, const std::string&
 
 const char* name_of(Precision precision) { return precision == Precision::float64 ? "double" : "float"; }
 
-unsigned effects_of_pass(const std::string& pass) { return effects_read.at(pass); }
+unsigned effects_of_pass(const std::string& pass) {
+  const PassRow& row = pass_row(pass);
+  unsigned effects = (row.properties & HOLDS_LIGHT_PASSES) ? OUTPUT_LIGHT_PASSES : 0u;
+#define EFFECT_OF_PASS(x, NAME, number, key, programs, ...) \
+  if ((programs)&row.bit) effects |= EFFECT_##NAME;
+  EFFECT_TABLE(EFFECT_OF_PASS, )
+#undef EFFECT_OF_PASS
+  return effects;
+}
 
 cl::Program build_pass(Device& device, const std::string& pass, const KernelOptions& options) {
   const bool in_double = options.precision == Precision::float64;
@@ -49,8 +47,9 @@ cl::Program build_pass(Device& device, const std::string& pass, const KernelOpti
   if (in_double) defines += "#define CAUSTICL_DOUBLE\n";
   if (options.triangle_test == TriangleTest::precomputed && (effects & EFFECT_TRIANGLES))
     defines += "#define TRIANGLES_PRECOMPUTED\n";
-  if (options.camera_packets && (pass == "camera" || pass == "path")) defines += "#define CAMERA_PACKETS\n";
-  if (options.brute_force && (pass == "photon" || pass == "camera")) defines += "#define BRUTE_FORCE\n";
+  const unsigned properties = pass_row(pass).properties;
+  if (options.camera_packets && (properties & TRACES_CAMERA_RAYS)) defines += "#define CAMERA_PACKETS\n";
+  if (options.brute_force && (properties & TRACES_BATCHES)) defines += "#define BRUTE_FORCE\n";
   const std::string source =
       defines + flatten_kernel_source("passes/pass_" + pass + ".cl", options.kernel_dir);
   if (!options.dump_kernels.empty()) dump(options.dump_kernels, pass, source);

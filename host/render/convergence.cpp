@@ -1,14 +1,12 @@
 #include "render/convergence.hpp"
 
+#include "integrators/integrators.hpp"
+
 namespace causticl {
 namespace {
 
 constexpr std::size_t look_pixels = 2048;     // a fraction of so many is right to two thirds of a percent
 constexpr std::size_t measure_pixels = 4096;  // and of so many to half of one
-
-ErrorRates expected_rates(const RendererSpec& renderer) {
-  return renderer.integrator == Integrator::sppm ? sppm_rates(renderer.alpha) : path_tracing_rates;
-}
 
 }  // namespace
 

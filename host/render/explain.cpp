@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.hpp"
+#include "base/spelling.hpp"
+#include "scene/integrators.hpp"
 #include "scene/shape_kind.hpp"
 
 namespace causticl {
@@ -13,12 +15,6 @@ namespace {
 /// `text` and spaces up to `width`, two at least.
 std::string column(const std::string& text, std::size_t width) {
   return text + std::string(text.size() + 2 > width ? 2 : width - text.size(), ' ');
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const auto& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
 }
 
 std::string cost_text(const EffectCost& cost) {
@@ -37,7 +33,7 @@ std::vector<std::string> kept_for(const Scene& scene) {
   kept.push_back(scene.textures.empty()
                      ? "textures: none, so that no buffer holds any"
                      : "textures: " + std::to_string(scene.textures.size()) + " on the device");
-  if (scene.renderer.integrator == Integrator::sppm)
+  if (traces_photons(scene.renderer.integrator))
     kept.push_back(
         "visible points: traced anew each pass, with a pinhole too, since the film position within the "
         "pixel is drawn anew each pass: kept ones would leave edges jagged");
@@ -49,7 +45,7 @@ std::vector<std::string> kept_for(const Scene& scene) {
 Explanation explain(const Scene& scene) {
   Explanation result;
   result.scene = scene.file;
-  result.integrator = scene.renderer.integrator == Integrator::sppm ? "sppm" : "pt";
+  result.integrator = name_of(scene.renderer.integrator);
   result.passes = plan_passes(scene);
   result.kept = kept_for(scene);
   for (const auto& effect : find_effects(scene)) {
@@ -67,9 +63,10 @@ std::string explanation_table(const Explanation& explanation) {
   text += "\n\n" + column("effect", 14) + column("called for by", 58) + "compiled into\n";
   for (const auto& [effect, passes, cost] : explanation.effects) {
     const bool called = !effect.reason.empty();
-    text += column(effect.key, 14) + column(called ? effect.reason : "-", 58) +
-            (passes.empty() ? called ? "nothing: no pass that would read it runs" : "-" : joined(passes)) +
-            "\n";
+    text +=
+        column(effect.key, 14) + column(called ? effect.reason : "-", 58) +
+        (passes.empty() ? called ? "nothing: no pass that would read it runs" : "-" : joined(passes, ", ")) +
+        "\n";
     if (cost) text += column("", 14) + "cost " + cost_text(*cost) + "\n";
   }
   text += "\n" + column("pass", 14) + "\n";

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "render/explain.hpp"
+#include "scene/integrators.hpp"
 #include "scene/material_kind.hpp"
 #include "shared/effects.h"
 
@@ -66,7 +67,7 @@ std::optional<std::pair<Scene, std::string>> scene_without(const Scene& scene, u
       plain.camera.aperture = 0;
       return std::pair{plain, "a pinhole"};
     case EFFECT_SHADOW_RAYS:
-      if (scene.renderer.integrator == Integrator::pt) return {};
+      if (!traces_photons(scene.renderer.integrator)) return {};
       plain.renderer.direct_light = DirectLight::photons;
       return std::pair{plain, "direct light by photons"};
     case EFFECT_TEXTURES:

@@ -1,5 +1,5 @@
-// What the pilot of SPPM decides of a scene.
-#include "integrators/sppm.hpp"
+// What a pilot decides of a scene.
+#include "integrators/integrators.hpp"
 #include "render/explain.hpp"
 #include "render/several_devices.hpp"
 #include "shared/effects.h"
@@ -8,8 +8,7 @@ namespace causticl {
 
 void explain_pilot(Explanation& explanation, const Scene& scene, Device& device,
                    const RenderOptions& options) {
-  if (scene.renderer.integrator != Integrator::sppm || !why_skipped(explanation.passes, "photon").empty())
-    return;
+  if (!why_skipped(explanation.passes, "photon").empty()) return;
   const unsigned compiled = chosen_effects(find_effects(scene), options.effects);
   const KernelOptions kernels{
       compiled, options.precision,
@@ -17,8 +16,10 @@ void explain_pilot(Explanation& explanation, const Scene& scene, Device& device,
       options.kernel_dir, options.dump_kernels};
   RenderDevice on(device, scene, kernels, RayChoice{options.camera_rays, options.photon_rays},
                   passes_to_run(explanation.passes), options.threads);
-  const Sppm sppm(scene, on.scene, on.device, on.film, on.programs, options.seed, true, nullptr);
-  for (const auto& line : pilot_lines(sppm.pilot(), scene.renderer)) explanation.decided.push_back(line);
+  const auto integrator =
+      make_integrator({scene, on.scene, on.device, on.film, on.programs, options.seed, true});
+  if (const Pilot* pilot = integrator->pilot())
+    for (const auto& line : pilot_lines(*pilot, scene.renderer)) explanation.decided.push_back(line);
 }
 
 }  // namespace causticl

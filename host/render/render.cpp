@@ -11,6 +11,7 @@
 #include "render/render_loop.hpp"
 #include "render/several_devices.hpp"
 #include "render/start_integrators.hpp"
+#include "scene/integrators.hpp"
 #include "shared/effects.h"
 
 namespace causticl {
@@ -63,7 +64,7 @@ void add_device_statistics(const std::vector<std::unique_ptr<RenderDevice>>& par
     }
   }
   for (auto& pass : statistics.pass_programs) {
-    const auto kernel = statistics.kernels.find(main_kernel(pass.name));
+    const auto kernel = statistics.kernels.find(pass_row(pass.name).main_kernel);
     if (kernel != statistics.kernels.end()) pass.launches = kernel->second.launches;
     statistics.kernel_build_seconds += pass.build_seconds;
   }
@@ -125,8 +126,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
     if (notice) notice("nothing emits light: the picture is black");
     return black_picture(scene, options, statistics);
   }
-  const bool sppm = scene.renderer.integrator == Integrator::sppm;
-  if (devices.size() > 1 && scene.renderer.guided_photons.value_or(false) && sppm)
+  if (devices.size() > 1 && scene.renderer.guided_photons.value_or(false) &&
+      traces_photons(scene.renderer.integrator))
     throw UserError(
         "/renderer/guided_photons: cannot be shared between devices, since each would mark what its own "
         "pixels see; use one --device, or -D renderer.guided_photons=false");
@@ -138,7 +139,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
                                                    passes_to_run(plan), options.threads));
   if (notice && !parts.front()->programs.first_is_built_within(patience))
     notice("compiling kernels, once for each device and combination of effects");
-  const bool with_photons = sppm && why_skipped(plan, "photon").empty();
+  const bool with_photons = why_skipped(plan, "photon").empty();
   if (const auto pilot = start_integrators(parts, scene, options.seed, with_photons, notice)) {
     statistics.first_radius = pilot->first_radius;
     statistics.first_radius_chosen = !scene.renderer.radius;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/integrators.hpp"
+
 namespace causticl {
 namespace {
 
@@ -11,8 +13,6 @@ using Clock = RenderLoop::Clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-const char* name_of(Integrator integrator) { return integrator == Integrator::sppm ? "sppm" : "pt"; }
 
 // With fewer passes the estimate of the error is too noisy to stop by.
 constexpr std::uint64_t fewest_passes = 8;
@@ -23,10 +23,8 @@ bool snapshot_due(std::uint64_t passes) {
   return passes <= 3;
 }
 
-std::uint64_t wanted_passes(const Scene& scene) {
-  const auto& renderer = scene.renderer;
-  return static_cast<std::uint64_t>(renderer.integrator == Integrator::sppm ? renderer.passes
-                                                                            : renderer.samples);
+std::uint64_t wanted_passes(const RendererSpec& renderer) {
+  return static_cast<std::uint64_t>(renderer.*row_of(renderer.integrator).passes);
 }
 
 }  // namespace
@@ -57,7 +55,7 @@ RenderLoop::RenderLoop(const Scene& scene, const RenderOptions& options, Film& f
       statistics_(statistics),
       start_(start),
       loop_start_(Clock::now()),
-      wanted_(wanted_passes(scene)),
+      wanted_(wanted_passes(scene.renderer)),
       endless_(options.wanted_error && wanted_ == endless_passes),
       with_channels_(std::any_of(options.outputs.begin(), options.outputs.end(), holds_channels)),
       checkpoints_(scene.renderer.integrator),

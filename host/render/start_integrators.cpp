@@ -1,7 +1,6 @@
 #include "render/start_integrators.hpp"
 
-#include "integrators/path.hpp"
-#include "integrators/sppm.hpp"
+#include "integrators/integrators.hpp"
 
 namespace causticl {
 
@@ -10,14 +9,9 @@ std::optional<Pilot> start_integrators(const std::vector<std::unique_ptr<RenderD
                                        const std::function<void(const std::string&)>& notice) {
   std::optional<Pilot> pilot;
   const auto start = [&](RenderDevice& on) {
-    if (scene.renderer.integrator == Integrator::pt) {
-      on.integrator = std::make_unique<PathTracer>(scene, on.scene, on.device, on.film, on.programs, seed);
-      return;
-    }
-    auto sppm = std::make_unique<Sppm>(scene, on.scene, on.device, on.film, on.programs, seed, with_photons,
-                                       pilot ? &*pilot : nullptr);
-    pilot = sppm->pilot();
-    on.integrator = std::move(sppm);
+    on.integrator = make_integrator(
+        {scene, on.scene, on.device, on.film, on.programs, seed, with_photons, pilot ? &*pilot : nullptr});
+    if (const Pilot* decided = on.integrator->pilot()) pilot = *decided;
   };
   for (const auto& part : parts) start(*part);
   if (pilot && pilot->copies && parts.size() > 1) {

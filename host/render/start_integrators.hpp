@@ -12,8 +12,8 @@
 
 namespace causticl {
 
-/// Makes the integrator of each of `parts`. SPPM's pilot runs on the first of them, and all hold to it:
-/// returned, and told to `notice`; none for path tracing.
+/// Makes the integrator of each of `parts`. Its pilot, if it has one, runs on the first of them, and all hold
+/// to that: returned, and told to `notice`.
 std::optional<Pilot> start_integrators(const std::vector<std::unique_ptr<RenderDevice>>& parts,
                                        const Scene& scene, std::uint32_t seed, bool with_photons,
                                        const std::function<void(const std::string&)>& notice);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/integrators.hpp"
 #include "scene/object_triangles.hpp"
 
 namespace causticl {
@@ -51,7 +52,7 @@ bool has_infinite_light(const Scene& scene) {
 }
 
 bool aims_photons(const Scene& scene) {
-  return scene.renderer.integrator == Integrator::sppm &&
+  return traces_photons(scene.renderer.integrator) &&
          scene.renderer.aimed_photons.value_or(has_infinite_light(scene));
 }
 

@@ -10,6 +10,7 @@
 #include "base/vec.hpp"
 #include "image/image.hpp"
 #include "mesh/mesh.hpp"
+#include "scene/integrator_table.hpp"
 #include "shared/materials.h"
 #include "shared/shapes.h"
 
@@ -97,7 +98,9 @@ struct CameraSpec {
   bool flat_focus = true;  // the focus is a plane (position/target form) or a sphere (origin/direct form)
 };
 
-enum class Integrator { sppm, pt };
+#define NAME_OF_INTEGRATOR(name, ...) name,
+enum class Integrator { INTEGRATOR_TABLE(NAME_OF_INTEGRATOR) };
+#undef NAME_OF_INTEGRATOR
 enum class Schedule { pixel, global, geometric };
 enum class Sampler { sobol, independent };
 enum class DirectLight { shadow_rays, photons };

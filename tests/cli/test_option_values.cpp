@@ -1,8 +1,11 @@
 // Values as people write them.
+#include <set>
+
 #include "catch2.hpp"
 
 #include "base/spelling.hpp"
 #include "format/option_values.hpp"
+#include "scene/integrators.hpp"
 
 using namespace causticl;
 
@@ -59,7 +62,12 @@ TEST_CASE("integrators have several names, in any case") {
   for (const char* text : {"sppm", "SPPM", "photon", "photons", "photon-mapping", "Photon_Mapping", "ppm"})
     CHECK(parse_integrator(text) == Integrator::sppm);
   for (const char* text : {"", "vcm", "bdpt", "p", "sppmx", "pathh"}) CHECK_FALSE(parse_integrator(text));
-  for (const auto& name : integrator_names()) CHECK(parse_integrator(name));
+  std::set<std::string> spellings;
+  for (const auto& name : integrator_spellings()) {
+    CHECK(parse_integrator(name));
+    CHECK(spellings.insert(name).second);
+  }
+  for (const IntegratorRow& row : integrator_rows) CHECK(parse_integrator(row.name) == row.integrator);
 }
 
 TEST_CASE("the nearest name is suggested where one is near") {

@@ -1,12 +1,16 @@
 // Passes that cannot change the picture do not run: by the counters of launches, and by the picture.
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <stdexcept>
 
 #include "catch2.hpp"
 #include "device_fixture.hpp"
 #include "effect_scenes.hpp"
 #include "effects/passes.hpp"
+#include "opencl/kernel_sources.hpp"
 #include "render/render_fixture.hpp"
+#include "scene/integrators.hpp"
 #include "temporary_folder.hpp"
 
 using namespace causticl;
@@ -58,6 +62,24 @@ void check_no_photons(const Scene& scene, const std::string& reason) {
 }
 
 }  // namespace
+
+TEST_CASE("every program of an integrator is a pass, with its kernel") {
+  for (const IntegratorRow& row : integrator_rows) {
+    INFO(row.name);
+    CHECK(std::string(row.text).size() > 4);
+    CHECK(row.mse_slope < 0);
+    const auto programs = programs_of(row.integrator);
+    CHECK(std::set<std::string>(programs.begin(), programs.end()).size() == programs.size());
+    CHECK(programs.back() == "film");
+    for (const std::string& program : programs) {
+      INFO(program);
+      const std::string kernel = pass_row(program).main_kernel;
+      CHECK_THAT(embedded_kernel_sources().at("passes/pass_" + program + ".cl"),
+                 Contains(" " + kernel + "("));
+    }
+  }
+  CHECK_THROWS_AS(pass_row("nothing"), std::logic_error);
+}
 
 TEST_CASE("no photon is traced where shadow rays bring all light") {
   check_no_photons(small_scene(1), "max_depth is 1");
