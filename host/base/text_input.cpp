@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "base/error.hpp"
 #include "base/input_file.hpp"
+#include "base/source_location.hpp"
 
 namespace causticl {
 namespace {
@@ -122,10 +122,10 @@ const unsigned char* TextInput::bytes(std::size_t count) {
 }
 
 void TextInput::fail_at(std::uint64_t line, const std::string& fault) const {
-  throw UserError(file_ + ":" + std::to_string(line) + ": " + fault);
+  SourceLocation{file_, line, ""}.fail(fault);
 }
 
-void TextInput::fail_file(const std::string& fault) const { throw UserError(file_ + ": " + fault); }
+void TextInput::fail_file(const std::string& fault) const { SourceLocation{file_, 0, ""}.fail(fault); }
 
 std::string_view next_word(std::string_view& text) {
   std::size_t begin = 0;

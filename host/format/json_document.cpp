@@ -209,8 +209,8 @@ const JsonValue* JsonValue::member(const std::string& key) const {
   return nullptr;
 }
 
-std::string JsonDocument::place(int source, int line) const {
-  return source == 0 ? sources[0] + ":" + std::to_string(line) : sources[source];
+SourceLocation JsonDocument::location(int source, int line, const std::string& pointer) const {
+  return {sources[source], source == 0 ? static_cast<std::uint64_t>(line) : 0, pointer};
 }
 
 JsonDocument json_parse(const std::string& name, const std::string& text) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/source_location.hpp"
+
 namespace causticl {
 
 struct JsonMember;
@@ -36,8 +38,8 @@ struct JsonDocument {
   std::vector<std::string> sources;
   JsonValue root;
 
-  /// "scene.json:12", or the option that a value came from.
-  std::string place(int source, int line) const;
+  /// Of what stands at a JSON pointer: in the file, or in the option that it came from.
+  SourceLocation location(int source, int line, const std::string& pointer) const;
 };
 
 // Deeper nesting than this is refused: no scene needs it, and it bounds the recursion of whoever walks the

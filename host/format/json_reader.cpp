@@ -64,12 +64,12 @@ std::string suggestion(const std::string& text, const std::vector<std::string>& 
   return "use " + std::string(names.size() > 2 ? "one of " : "") + quoted_list(names);
 }
 
-std::string JsonReader::place() const {
-  return document_->place(placed_->source, placed_->line) + ": " + pointer();
+SourceLocation JsonReader::location() const {
+  return document_->location(placed_->source, placed_->line, pointer());
 }
 
 void JsonReader::fail(const std::string& message) const {
-  throw UserError(one_line(place() + ": " + message));
+  throw UserError(one_line(location().text() + ": " + message));
 }
 
 void JsonReader::fail_expected(const std::string& expected, const std::string& hint) const {
@@ -89,10 +89,10 @@ void JsonReader::check_keys(const std::vector<std::string>& keys,
   if (value_->kind != JsonValue::Kind::object) fail_expected("an object");
   for (const JsonMember& member : value_->members) {
     if (contains(keys, member.key) || contains(unlisted, member.key)) continue;
-    const std::string at =
-        document_->place(member.value.source, member.line) + ": " + child(member.key, member.value).pointer();
-    throw UserError(
-        one_line(at + ": unknown key " + json_quote(member.key) + "; " + suggestion(member.key, keys)));
+    const SourceLocation at =
+        document_->location(member.value.source, member.line, child(member.key, member.value).pointer());
+    throw UserError(one_line(at.text() + ": unknown key " + json_quote(member.key) + "; " +
+                             suggestion(member.key, keys)));
   }
 }
 

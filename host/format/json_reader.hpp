@@ -41,8 +41,8 @@ class JsonReader {
   const JsonValue& value() const { return *value_; }
   /// RFC 6901; "/" for the whole document.
   std::string pointer() const { return pointer_.empty() ? "/" : pointer_; }
-  /// "scene.json:12: /objects/3".
-  std::string place() const;
+  /// Where the value stands, or the object that lacks it.
+  SourceLocation location() const;
 
   /// Objects: refuses keys other than `keys`, suggesting the nearest, and `unlisted`, which it does not
   /// suggest. Throws if the value is not an object.

@@ -24,8 +24,8 @@ struct SceneOptions {
   ImageLimits image_limits;                 // --max-image-memory, of all images together
 };
 
-/// Loads a scene file with everything it names (meshes, images). Throws UserError with the file, the line,
-/// the JSON pointer and what was expected.
+/// Loads a scene file of any format (scene_formats.hpp) with everything that it names (meshes, images).
+/// Throws UserError with the SourceLocation and what was expected.
 Scene load_scene(const std::string& file, const SceneOptions& options = {});
 
 }  // namespace causticl

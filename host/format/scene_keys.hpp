@@ -6,6 +6,7 @@
 namespace causticl {
 
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+constexpr std::int64_t most_visible_points = std::int64_t{1} << 31;  // of a pass
 
 /// The whole file. All other tables hang from it.
 const SceneTable& scene_keys();

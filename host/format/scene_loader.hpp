@@ -1,38 +1,16 @@
-// The parts of load_scene, one concept a file (scene_*.cpp).
+// The parts of the JSON reader, one concept a file (scene_*.cpp).
 #pragma once
 
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-
+#include "format/scene_builder.hpp"
 #include "format/scene_value.hpp"
 #include "scene/scene.hpp"
 
 namespace causticl {
 
-/// The scene under construction, and what has been loaded for it.
-struct SceneLoader {
-  Scene scene;
-  double glass_ior = 0;                                // key `Ng`
-  std::map<std::string, int> named_materials;          // into scene.materials
-  std::map<std::pair<std::string, bool>, int> images;  // resolved path and srgb, into scene.images
-  std::map<std::string, int> meshes;                   // resolved path, into scene.meshes
-  std::map<int, int> turned_meshes;                    // of those that are glass: the one to take
-  std::set<std::string> said;                          // texts of notices so far
-  ImageLimits image_limits;                            // what is left for further images
-
-  /// Tells the user `text`, with the place where it came up first.
-  void notice(const SceneNode& where, const std::string& text);
-  /// Tells the user what was found in a file.
-  void file_notes(const SceneNode& where, const std::string& file, const std::vector<std::string>& notes);
-  /// Index of the image or mesh that `path` names; each file is read once.
-  int image(const SceneValue& path, bool srgb);
-  int mesh(const SceneValue& path);
-  /// The mesh to take for a closed body of glass: where `mesh` is wound inwards, one that is turned.
-  int mesh_of_glass(const SceneNode& object, int mesh);
-  /// The image that `path` names as radiance: linear, as bright as it is, and black where it is none.
-  Image radiance_map(const SceneValue& path);
+/// The scene under construction, and what of the file its parts need.
+struct SceneLoader : SceneBuilder {
+  double glass_ior = 0;                        // key `Ng`
+  std::map<std::string, int> named_materials;  // into scene.materials
 };
 
 /// A list of shifts, scales, rotations and matrices, applied in listed order.

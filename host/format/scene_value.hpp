@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "format/asset_file.hpp"
 #include "format/json_reader.hpp"
 #include "format/scene_table.hpp"
 
@@ -18,7 +19,8 @@ class SceneNode {
  public:
   /// As in JsonReader.
   std::string pointer() const { return json_.pointer(); }
-  std::string place() const { return json_.place(); }
+  SourceLocation location() const { return json_.location(); }
+  operator SourceLocation() const { return location(); }
   bool is(JsonValue::Kind kind) const { return json_.value().kind == kind; }
   [[noreturn]] void fail_expected(const std::string& expected, const std::string& hint = "") const {
     json_.fail_expected(expected, hint);
@@ -41,6 +43,7 @@ class SceneValue : public SceneNode {
   std::int64_t integer() const;
   bool boolean() const;
   std::string string() const;  // also of a choice, whatever the word
+  operator AssetName() const { return {string(), location()}; }
   std::size_t choice() const;  // index of the word
   Vec3 vector() const;
   Vec3 color() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <new>
@@ -161,7 +162,15 @@ ImageMetadata metadata_of(const std::string& bytes) {
   return metadata;
 }
 
-void decode_radiance(const std::string& bytes, const ImageLimits& limits, Image& image) {
+/// Throws for what stb cannot look at: it counts bytes in an int, and needs those of a TGA's header.
+void check_length(const std::string& bytes) {
+  constexpr std::size_t smallest = 18;
+  if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
+  if (bytes.size() < smallest) throw std::runtime_error(unknown_type);
+}
+
+void decode_radiance(const std::string& bytes, bool, const ImageLimits& limits, Image& image) {
+  check_length(bytes);
   RadiancePicture picture = read_radiance(bytes, limits);
   const StbMemory memory(check_stb_header(picture.bytes, limits));
   stb_forget_failure();
@@ -171,12 +180,9 @@ void decode_radiance(const std::string& bytes, const ImageLimits& limits, Image&
 }
 
 void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, Image& image) {
-  if (bytes.size() > 0x7fffffff) throw std::runtime_error("it has more than 2^31 bytes");
+  check_length(bytes);
   const auto* raw = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto length = static_cast<int>(bytes.size());
-  constexpr std::size_t smallest = 18;  // a TGA's header; with less stb could not even look for the type
-  if (bytes.size() < smallest) throw std::runtime_error(unknown_type);
-  if (is_radiance(bytes)) return decode_radiance(bytes, limits, image);
   const StbMemory memory(check_stb_header(bytes, limits));
   ImageMetadata metadata = metadata_of(bytes);
   Transfer transfer;
@@ -191,8 +197,12 @@ void decode_stb(const std::string& bytes, bool srgb, const ImageLimits& limits, 
     decode_stb_as<stbi_uc>(stbi_load_from_callbacks, bytes, transfer, metadata.orientation, image);
 }
 
-/// Four floats a texel, top row first.
-void decode_pfm_texels(const std::string& bytes, const ImageLimits& limits, Image& image) {
+void decode_exr_texels(const std::string& bytes, bool, const ImageLimits& limits, Image& image) {
+  check_image_cost(exr_cost(bytes), bytes.size(), limits);
+  decode_exr(bytes, image.width, image.height, image.rgba, &image.notes);
+}
+
+void decode_pfm_texels(const std::string& bytes, bool, const ImageLimits& limits, Image& image) {
   const Picture picture = decode_pfm(bytes, &image.notes);
   image.width = picture.width;
   image.height = picture.height;
@@ -201,6 +211,19 @@ void decode_pfm_texels(const std::string& bytes, const ImageLimits& limits, Imag
   image.rgba.assign(picture.rgb.size() / 3 * 4, 1.0f);
   for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.rgba[i / 3 * 4 + i % 3] = picture.rgb[i];
 }
+
+/// A format of images: how a file of it begins, and its decoder to four floats a texel, top row first, within
+/// limits; a decoder of integers takes colours for sRGB where it is told to.
+struct ImageFormat {
+  bool (*begins_so)(const std::string& bytes);
+  void (*decode)(const std::string& bytes, bool srgb, const ImageLimits& limits, Image& image);
+};
+constexpr ImageFormat image_formats[] = {
+    {is_exr, decode_exr_texels},
+    {is_pfm, decode_pfm_texels},
+    {is_radiance, decode_radiance},
+    {[](const std::string&) { return true; }, decode_stb},  // PNG, JPEG, BMP, and TGA, which has no signature
+};
 
 }  // namespace
 
@@ -217,14 +240,9 @@ Image read_image(const std::string& file, bool srgb, const ImageLimits& limits) 
   Image image;
   image.file = file;
   try {
-    if (is_exr(bytes)) {
-      check_image_cost(exr_cost(bytes), bytes.size(), limits);
-      decode_exr(bytes, image.width, image.height, image.rgba, &image.notes);
-    } else if (is_pfm(bytes)) {
-      decode_pfm_texels(bytes, limits, image);
-    } else {
-      decode_stb(bytes, srgb, limits, image);
-    }
+    const auto format = std::find_if(std::begin(image_formats), std::end(image_formats),
+                                     [&](const ImageFormat& each) { return each.begins_so(bytes); });
+    format->decode(bytes, srgb, limits, image);
   } catch (const std::bad_alloc&) {
     fail(file, "it does not fit into memory");
   } catch (const std::exception& error) {

@@ -1,13 +1,13 @@
 #include <stb/stb_image_write.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "base/spelling.hpp"
 #include "image/image_formats.hpp"
 
 namespace causticl {
@@ -15,25 +15,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const std::string& file) {
-  std::string extension = fs::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 /// Clamp to [0, 1], power 1/2.2, 8 bits. NaN is black.
 unsigned char tone_map(float value) {
   const float clamped = value > 0 ? std::min(value, 1.0f) : 0.0f;
   return static_cast<unsigned char>(std::lround(255.0f * std::pow(clamped, 1 / 2.2f)));
 }
 
+/// A format of pictures to write, and its encoder.
+struct PictureFormat {
+  const char* extension;  // in lower case
+  std::string (*encode)(const Picture& picture, const Metadata& metadata);
+  bool holds_channels;
+};
+constexpr PictureFormat picture_formats[] = {
+    {".png", [](const Picture& picture, const Metadata&) { return encode_png(picture); }, false},
+    {".exr", encode_exr, true},
+    {".pfm", [](const Picture& picture, const Metadata&) { return encode_pfm(picture); }, false},
+};
+
+/// That of a file by its extension; null where it is unknown.
+const PictureFormat* format_of(const std::string& file) {
+  const std::string extension = lower(fs::path(file).extension().string());
+  for (const PictureFormat& format : picture_formats)
+    if (extension == format.extension) return &format;
+  return nullptr;
+}
+
+/// Throws UserError where the format is unknown.
+const PictureFormat& known_format_of(const std::string& file) {
+  if (const PictureFormat* format = format_of(file)) return *format;
+  std::vector<std::string> extensions;
+  for (const PictureFormat& format : picture_formats) extensions.emplace_back(format.extension);
+  throw UserError(file + ": unknown output format; expected a name that ends in " + listed(extensions));
+}
+
 std::string encoded(const std::string& file, const Picture& picture, const Metadata& metadata) {
-  const std::string extension = lower_extension(file);
+  const PictureFormat& format = known_format_of(file);
   try {
-    return extension == ".png"   ? encode_png(picture)
-           : extension == ".exr" ? encode_exr(picture, metadata)
-                                 : encode_pfm(picture);
+    return format.encode(picture, metadata);
   } catch (const std::exception& error) {
     throw UserError(file + ": cannot be written: " + error.what());
   }
@@ -54,13 +73,14 @@ std::string encode_png(const Picture& picture) {
 }
 
 void check_output(const std::string& file) {
-  const std::string extension = lower_extension(file);
-  if (extension != ".png" && extension != ".exr" && extension != ".pfm")
-    throw UserError(file + ": unknown output format; expected a name that ends in .png, .exr or .pfm");
+  known_format_of(file);
   check_writable(file);
 }
 
-bool holds_channels(const std::string& file) { return lower_extension(file) == ".exr"; }
+bool holds_channels(const std::string& file) {
+  const PictureFormat* format = format_of(file);
+  return format && format->holds_channels;
+}
 
 void write_picture(const std::string& file, const Picture& picture, const Metadata& metadata) {
   check_output(file);

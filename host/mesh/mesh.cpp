@@ -1,12 +1,12 @@
 #include "mesh/mesh.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <new>
 
-#include "base/error.hpp"
+#include "base/spelling.hpp"
 #include "base/vec.hpp"
 #include "mesh/mesh_formats.hpp"
 
@@ -47,21 +47,35 @@ void normalize_normals(Mesh& mesh) {
   add_missing_normals(mesh, lost_normal);
 }
 
+/// A format of meshes and its reader.
+struct MeshFormat {
+  const char* extension;  // in lower case
+  void (*read)(TextInput& input, Mesh& mesh);
+};
+constexpr MeshFormat mesh_formats[] = {{".obj", read_obj}, {".ply", read_ply}};
+
+/// ".obj or .ply".
+std::string known_extensions() {
+  std::vector<std::string> extensions;
+  for (const MeshFormat& format : mesh_formats) extensions.emplace_back(format.extension);
+  return listed(extensions);
+}
+
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
 }  // namespace
 
 Mesh read_mesh(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower(std::filesystem::path(file).extension().string());
+  const auto format = std::find_if(std::begin(mesh_formats), std::end(mesh_formats),
+                                   [&](const MeshFormat& each) { return extension == each.extension; });
   TextInput input(file);
-  if (extension != ".obj" && extension != ".ply")
-    input.fail_file("is no mesh by its name; expected the extension .obj or .ply");
+  if (format == std::end(mesh_formats))
+    input.fail_file("is no mesh by its name; expected the extension " + known_extensions());
   Mesh mesh;
   mesh.file = file;
   try {
-    extension == ".obj" ? read_obj(input, mesh) : read_ply(input, mesh);
+    format->read(input, mesh);
   } catch (const std::bad_alloc&) {
     input.fail_file("the mesh does not fit into memory");
   }

@@ -105,6 +105,8 @@ inline constexpr BadScene bad_files[] = {
     {"garbage.json", "FILE", "garbage.json", "garbage.json: expected a scene in JSON, got binary data"},
     {"ill formed utf8.json", "FILE", "ill_formed_utf8.json",
      "ill_formed_utf8.json:2: malformed string: ill-formed UTF-8 byte"},
+    {"no scene", "FILE", "garbage.obj",
+     "garbage.obj: is no scene of a known format; expected CaustiCL JSON (.json)"},
     {"not an object.json", "FILE", "not_an_object.json",
      "not_an_object.json:1: /: expected an object, got a list of 3"},
     {"utf16.json", "FILE", "utf16.json", "utf16.json: expected a scene in JSON, got binary data"},

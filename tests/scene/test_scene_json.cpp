@@ -41,7 +41,7 @@ TEST_CASE("every value knows its line") {
   CHECK(root.value().members[2].line == 10);
   CHECK(root.at("c").value().line == 12);
   CHECK(root.at("c").at("d").value().line == 13);
-  CHECK(root.at("c").at("d").place() == "t:13: /c/d");
+  CHECK(root.at("c").at("d").location().text() == "t:13: /c/d");
   CHECK(root.at("c").at("d").number() == -7);
 }
 
@@ -105,13 +105,13 @@ TEST_CASE("options lay values over the file") {
   json_override(document, "a.s", "\"1\"");
   const JsonReader root(document);
   CHECK(root.at("a").at("b").number() == 2);
-  CHECK(root.at("a").at("b").place() == "-D a.b=2: /a/b");
+  CHECK(root.at("a").at("b").location().text() == "-D a.b=2: /a/b");
   CHECK(root.at("a").at("s").string() == "1");
   const auto items = root.at("c").items(2, 2, "values");
   CHECK(items[0].string() == "text that is not JSON");
   CHECK(items[1].at("d").items(2, 2, "numbers")[1].number() == 4);
-  CHECK(items[1].at("d").items(2, 2, "numbers")[1].place() == "-D c.1.d=[3, 4]: /c/1/d/1");
-  CHECK(items[1].place() == "t:1: /c/1");
+  CHECK(items[1].at("d").items(2, 2, "numbers")[1].location().text() == "-D c.1.d=[3, 4]: /c/1/d/1");
+  CHECK(items[1].location().text() == "t:1: /c/1");
   CHECK(root.at("new").at("key").at("deep").boolean());
 }
 

@@ -1,19 +1,16 @@
-#include "format/load_scene.hpp"
-
+// The native format: JSON with comments, by the tables of scene_keys.hpp.
 #include <algorithm>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "format/scene_formats.hpp"
 #include "format/scene_keys.hpp"
 #include "format/scene_loader.hpp"
 #include "format/scene_output.hpp"
-#include "scene/flush_emitters.hpp"
 #include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
-
-constexpr std::int64_t visible_point_limit = std::int64_t{1} << 31;
 
 void read_size(const SceneObject& json, const SceneOptions& options, Scene& scene) {
   scene.width = json.integer("width");
@@ -44,7 +41,7 @@ void read_integrator(const SceneObject& json, const SceneOptions& options, Scene
   if (options.integrator) renderer.integrator = *options.integrator;
   const Scene& scene = loader.scene;
   if (traces_photons(renderer.integrator) &&
-      std::int64_t{scene.width} * scene.height * renderer.visible_points > visible_point_limit)
+      std::int64_t{scene.width} * scene.height * renderer.visible_points > most_visible_points)
     (settings ? SceneNode(*settings) : SceneNode(json))
         .fail("expected at most 2^31 visible points in a pass, got " + std::to_string(scene.width) + "x" +
               std::to_string(scene.height) + " pixels with " + std::to_string(renderer.visible_points));
@@ -71,25 +68,18 @@ void refuse_infinite_light(const SceneObject& json, const Scene& scene) {
         "from infinitely far, got one; use a large disk or a point light");
 }
 
-void warn_without_light(const SceneObject& json, SceneLoader& loader) {
-  std::string flat;
-  for (const Object& object : loader.scene.objects)
-    if (emission_of(loader.scene, object) > 0 && !is_lit(loader.scene, object)) {
-      if (flat.empty())
-        flat = object.pointer;
-      else if (!flat.ends_with(" and others"))
-        flat += " and others";
-    }
-  if (!flat.empty()) flat += " should emit light, but without an area gives none";
-  if (!has_light(loader.scene))
-    loader.notice(json, "no light: the image will be black" + (flat.empty() ? "" : "; " + flat));
-  else if (!flat.empty())
-    loader.notice(json, flat);
-}
-
 }  // namespace
 
-Scene load_scene(const std::string& file, const SceneOptions& options) {
+// What may stand before its first brace: a byte order mark, blank space, comments.
+bool is_json_scene(const std::string& beginning) {
+  const std::size_t mark = beginning.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n", mark);
+  if (first == std::string::npos) return true;  // the reader says that it is empty
+  return beginning[first] == '{' || beginning[first] == '[' || beginning.compare(first, 2, "//") == 0 ||
+         beginning.compare(first, 2, "/*") == 0;
+}
+
+Scene load_json_scene(const std::string& file, const SceneOptions& options) {
   JsonDocument document = json_read(file);
   for (const auto& [key, value] : options.overrides) json_override(document, key, value);
   const SceneObject json(JsonReader(document), scene_keys());
@@ -117,13 +107,7 @@ Scene load_scene(const std::string& file, const SceneOptions& options) {
   if (const auto renderer = json.find("renderer")) read_disc_light(renderer->object(), loader);
   if (const auto lights = json.find("lights")) read_lights(*lights, loader);
   refuse_infinite_light(json, scene);
-  warn_without_light(json, loader);
-  const auto lifted = lift_flush_emitters(scene);
-  constexpr std::size_t most_lifted = 4;
-  for (std::size_t i = 0; i < std::min(most_lifted, lifted.size()); ++i) loader.notice(json, lifted[i]);
-  if (lifted.size() > most_lifted)
-    loader.notice(json,
-                  std::to_string(lifted.size() - most_lifted) + " more emitters are moved out of surfaces");
+  loader.finish(json);
   return std::move(scene);
 }
 
