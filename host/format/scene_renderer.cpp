@@ -1,5 +1,8 @@
 // The key `renderer`.
+#include <type_traits>
+
 #include "format/option_values.hpp"
+#include "format/renderer_keys.hpp"
 #include "format/scene_loader.hpp"
 #include "scene/integrators.hpp"
 
@@ -12,26 +15,39 @@ Integrator read_integrator_name(const SceneValue& json) {
   return integrator_rows[json.choice()].integrator;
 }
 
+/// The value of a key into its field, one function a type.
+struct FieldReader {
+  const SceneObject& json;
+  const char* key;
+  RendererSpec& renderer;
+
+  void operator()(std::monostate) const {}
+  void operator()(Integrator RendererSpec::*field) const {
+    if (const auto name = json.find(key)) renderer.*field = read_integrator_name(*name);
+  }
+  template <typename Enum>
+  void operator()(Enum RendererSpec::*field) const requires std::is_enum_v<Enum> {
+    renderer.*field = json.choice<Enum>(key);
+  }
+  void operator()(int RendererSpec::*field) const { renderer.*field = json.integer(key); }
+  void operator()(std::int64_t RendererSpec::*field) const { renderer.*field = json.integer(key); }
+  void operator()(double RendererSpec::*field) const { renderer.*field = json.number(key); }
+  void operator()(bool RendererSpec::*field) const { renderer.*field = json.boolean(key); }
+  void operator()(std::optional<double> RendererSpec::*field) const {
+    if (const auto value = json.find(key)) renderer.*field = value->number();
+  }
+  void operator()(std::optional<bool> RendererSpec::*field) const {
+    if (const auto value = json.find(key)) renderer.*field = value->boolean();
+  }
+};
+
 }  // namespace
 
 // Keys of both integrators are welcome in either, so that one file serves --integrator too.
 void read_renderer(const SceneObject& json, SceneLoader& loader) {
   RendererSpec& renderer = loader.scene.renderer;
-  if (const auto type = json.find("type")) renderer.integrator = read_integrator_name(*type);
-  renderer.samples = json.integer("sample");
-  renderer.visible_points = json.integer("view_point_sample");
-  renderer.photons = json.integer("photon_sample");
-  renderer.passes = json.integer("rounds");
-  if (const auto radius = json.find("radius")) renderer.radius = radius->number();
-  if (const auto wider = json.find("indirect_radius")) renderer.indirect_radius = wider->number();
-  if (const auto guided = json.find("guided_photons")) renderer.guided_photons = guided->boolean();
-  if (const auto aimed = json.find("aimed_photons")) renderer.aimed_photons = aimed->boolean();
-  renderer.boundary_correction = json.boolean("boundary_correction");
-  renderer.alpha = json.number("alpha");
-  renderer.radius_decay = json.number("radius_decay");
-  renderer.schedule = json.choice<Schedule>("schedule");
-  renderer.sampler = json.choice<Sampler>("sampler");
-  renderer.direct_light = json.choice<DirectLight>("direct_light");
+  for (const RendererKey& row : renderer_keys())
+    std::visit(FieldReader{json, row.key.name, renderer}, row.field);
   if (json.has("radius_decay") && renderer.schedule != Schedule::geometric)
     loader.notice(json.at("radius_decay"),
                   "ignored, since a geometric decay does not converge: alpha rules the radius; "
