@@ -9,7 +9,6 @@
 #include "app/progress.hpp"
 #include "app/render_setup.hpp"
 #include "app/report.hpp"
-#include "app/study_request.hpp"
 #include "base/console.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
@@ -79,12 +78,13 @@ std::vector<std::string> written(std::vector<std::string> outputs,
 int render(const Options& options) {
   Scene scene = load_scene(options.scene, options.scene_options);
   apply_options(options, scene);
-  const auto outputs = output_files(options, scene);
-  check_outputs(options, outputs);
+  RenderOptions render = options.render;
+  render.outputs = output_files(options, scene);
+  check_outputs(options, render.outputs);
 
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
-  if (options.outputs.empty()) progress.note(scene_output(scene).notice);
+  if (options.render.outputs.empty()) progress.note(scene_output(scene).notice);
   progress.note(empty_view_notice(scene));
   if (traces_photons(scene.renderer.integrator))
     for (const auto& notice : coarse_channel_notices(scene)) progress.note(notice);
@@ -94,17 +94,17 @@ int render(const Options& options) {
   std::vector<Device*> devices;
   for (const DeviceInfo& info : find_devices(options.device)) {
     progress.note(threads_notice(options, info));
-    opened.push_back(std::make_unique<Device>(info, options.threads, &kernels));
+    opened.push_back(std::make_unique<Device>(info, render.threads, &kernels));
     devices.push_back(opened.back().get());
   }
 
   interruption_listen(options.quiet);
   const RenderResult result = render_scene(
-      scene, devices, render_options(options, outputs), [&](const Progress& now) { progress.update(now); },
+      scene, devices, render, [&](const Progress& now) { progress.update(now); },
       [&](const std::string& text) { progress.note(text); }, interruption_requested);
 
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
-  progress.finish(written(outputs, result.unwritten), result.statistics);
+  progress.finish(written(render.outputs, result.unwritten), result.statistics);
   LastSteps last;
   for (const auto& [file, fault] : result.unwritten) last.failed(fault);
   last.take([&] { write_json(options.stats_json, statistics_json(result.statistics)); });
@@ -118,10 +118,10 @@ int explain(const Options& options) {
   Explanation explanation = explain(scene);
   if (options.measure || (traces_photons(scene.renderer.integrator) && !list_devices().empty())) {
     KernelCache kernels(options.keep_kernels);
-    Device device(find_device(options.device), options.threads, &kernels);
-    explain_pilot(explanation, scene, device, render_options(options, {}));
+    Device device(find_device(options.device), options.render.threads, &kernels);
+    explain_pilot(explanation, scene, device, options.render);
     if (options.measure)
-      measure_effects(explanation, scene, device, render_options(options, {}),
+      measure_effects(explanation, scene, device, options.render,
                       [](const std::string& effect) { print_message(stderr, "measuring " + effect); });
     report_notices(kernels, note);
   }
@@ -138,7 +138,7 @@ int selftest(const Options& options) {
   SelftestProcesses processes(checks, options.selftest, options.device, options.keep_kernels);
   KernelCache kernels(options.keep_kernels);
   const DeviceInfo device_info = find_device(options.device);
-  Device device(device_info, options.threads, &kernels);
+  Device device(device_info, options.selftest.threads, &kernels);
   print_output(selftest_heading(device_info, options.selftest));
   const auto rows = processes.run(device, [](const SelftestRow& row) { print_output(selftest_line(row)); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -175,7 +175,9 @@ int study(const Options& options) {
     if (!options.quiet) print_message(stderr, line);
   };
   KernelCache kernels(options.keep_kernels);
-  const StudyOutcome outcome = run_study(study_request(options), kernels, say, interruption_requested);
+  const StudyRequest request{options.scene, options.scene_options, options.study, options.render,
+                             options.device};
+  const StudyOutcome outcome = run_study(request, kernels, say, interruption_requested);
   report_notices(kernels, say);
   print_output(outcome.summary);
   return outcome.interrupted ? interrupted : done;

@@ -1,4 +1,4 @@
-// Groups of options that one command alone has, and that fill a file.
+// Groups of options, a file each.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,6 +6,16 @@
 #include "app/options.hpp"
 
 namespace causticl {
+
+/// The scene and what changes it as it is read.
+void add_scene_options(CLI::App& app, Options& options);
+
+/// What `render` renders, where the picture goes and for how long.
+void add_render_options(CLI::App& app, Options& options);
+
+/// What a command runs on; a selftest has settings of its own for threads and kernels.
+void add_device_options(CLI::App& app, Options& options, unsigned& threads, std::string& kernel_dir,
+                        bool takes_several = false);
 
 /// Which checks `selftest` runs, on what.
 void add_selftest_options(CLI::App& app, Options& options);

@@ -1,8 +1,8 @@
 // The command line: what the user asked for, checked, and what it changes in a scene.
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,30 +13,31 @@
 #include "selftest/selftest.hpp"
 #include "study/study.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace causticl {
 
+/// An option that replaces what the scene's renderer says.
+struct RendererOption {
+  std::string name;                      // "--passes"
+  std::vector<std::string> integrators;  // that have a use for it
+  std::function<void(RendererSpec&)> apply;
+};
+
+/// What the user asked for. Values that others use stand where they take them from.
 struct Options {
   enum class Command { render, compare, devices, explain, info, schema, study, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
-  std::string scene;  // file; render, explain and info
+  std::string scene;  // file; render, explain, info and study
   SceneOptions scene_options;
+  std::vector<RendererOption> renderer_options;
 
-  std::vector<std::string> outputs;  // empty: the scene says
-  std::optional<int> passes, samples;
-  std::optional<std::int64_t> photons;
-  std::optional<double> time_limit;    // seconds
-  std::optional<double> wanted_error;  // a fraction
-  double confidence = 0.9;
-  bool layers = false;
-  std::uint32_t seed = 1;
-  Precision precision = Precision::float32;
-  std::string device;    // as find_device takes it
-  unsigned threads = 0;  // 0: all
-  TriangleTest triangle_test = TriangleTest::watertight;
-  std::string effects = "auto";  // render: what the kernels are compiled for
-  std::string kernel_dir, dump_kernels;
+  RenderOptions render;      // without outputs where the scene says them
+  std::string device;        // as find_device takes it
   bool keep_kernels = true;  // from one run to the next
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none
@@ -49,6 +50,9 @@ struct Options {
   bool measure = false;  // explain
   std::string json;      // file for what explain, selftest or compare found; empty: none
 };
+
+/// The commands and their options, bound to `options`, which must outlive it.
+std::unique_ptr<CLI::App> command_line(Options& options);
 
 /// Reads the command line. Throws UserError, of one line, for whatever is not understood.
 Options parse_options(int argc, const char* const* argv);

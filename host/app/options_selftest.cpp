@@ -1,4 +1,4 @@
-#include "app/option_checks.hpp"
+#include "app/option_binding.hpp"
 #include "app/option_groups.hpp"
 
 namespace causticl {
@@ -16,20 +16,18 @@ void add_selftest_options(CLI::App& app, Options& options) {
          "10^8 inputs a hard case, shared by its checks, and at least\n10^6 a check: half an hour on "
          "two cores")
       ->excludes(quick);
-  app.add_option("--inputs", selftest.inputs, "inputs a check")
-      ->check(whole_number(1, 1000000000000))
-      ->type_name("N");
+  add_value(app, "--inputs", selftest.inputs, whole_number<std::uint64_t>(1, 1000000000000),
+            "inputs a check");
   app.add_option("--case", selftest.checks,
                  "only these checks: the number of a hard case, or part\n"
                  "of a check's name; may be repeated")
       ->type_name("SPEC")
       ->allow_extra_args(false);
-  app.add_option("--replay", selftest.replay, "the one input of a check that failed, as it was printed")
-      ->type_name("WORDS");
-  app.add_option("--json", options.json, "write the table as one JSON object")->type_name("FILE");
-  app.add_option("--seed", selftest.seed, "of the random inputs; 1 by default")
-      ->check(whole_number(0, 4294967295))
-      ->type_name("N");
+  add_text(app, "--replay", selftest.replay, "WORDS",
+           "the one input of a check that failed, as it was printed");
+  add_text(app, "--json", options.json, "FILE", "write the table as one JSON object");
+  add_value(app, "--seed", selftest.seed, whole_number<std::uint32_t>(0, largest_seed),
+            "of the random inputs; 1 by default");
 }
 
 }  // namespace causticl

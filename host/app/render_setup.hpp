@@ -8,8 +8,8 @@
 
 namespace causticl {
 
-/// Puts --passes, --photons and --samples in place of the scene's own, and adds a notice to the scene for
-/// each one that its integrator has no use for.
+/// Puts the renderer options in place of the scene's own, and adds a notice to the scene for each one that
+/// its integrator has no use for.
 void apply_options(const Options& options, Scene& scene);
 
 /// The files to write: those of -o, else that of scene_output().
@@ -21,7 +21,5 @@ void check_outputs(const Options& options, const std::vector<std::string>& outpu
 
 /// What the user should know of --threads on this device; empty where it does what it says.
 std::string threads_notice(const Options& options, const DeviceInfo& info);
-
-RenderOptions render_options(const Options& options, const std::vector<std::string>& outputs);
 
 }  // namespace causticl

@@ -29,6 +29,7 @@ std::array<double, 2> read_scale(const SceneObject& json) {
 // of floats are linear whatever it says.
 int read_color_texture(const SceneObject& json, SceneLoader& loader) {
   TextureSpec texture;
+  texture.pointer = json.pointer();
   texture.kind = static_cast<TextureSpec::Kind>(json.type());
   if (texture.kind == TextureSpec::Kind::image) {
     texture.bilinear = json.word("filter") == "bilinear";

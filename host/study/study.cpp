@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "base/error.hpp"
+#include "scene/integrators.hpp"
 #include "study/study_analysis.hpp"
 #include "study/study_page.hpp"
 #include "study/study_session.hpp"
@@ -18,28 +20,31 @@ std::uint32_t long_seed(std::uint32_t seed) { return seed + 1000000; }
 constexpr std::uint32_t most_seeds = 16;
 constexpr int most_long_runs = 3;
 
-/// Looks at the scene with a pass, and lists what will be rendered.
+/// Looks at the scene with a pass, and lists what will be rendered; a study that goes on has its list.
 void plan(StudySession& session) {
   Study& study = session.study;
-  if (!study.settings.empty()) return;
-  const RenderSetup setup = session.renderer.setup_of(session.own_words);
+  const RenderSetup setup = session.renderer.setup_of(session.own_change);
   const Scene& scene = setup.scene;
-  JsonDocument document = json_read(session.request.scene);
-  for (const auto& [key, value] : setup.scene_options.overrides) json_override(document, key, value);
+  const bool fp64 = find_device(session.request.device).fp64;
+  if (!study.settings.empty()) try {
+      return restore_settings(study, {scene, study.first_radius, fp64}, session.own_change);
+    } catch (const std::runtime_error& error) {
+      throw UserError(session.path("study.json") + ": not a study that this version wrote (" + error.what() +
+                      "); --restart begins it anew");
+    }
   std::string sppm_fault;
   try {
-    const StudySetting sppm{"sppm", "", merged_words(session.own_words, {"--integrator", "sppm"}), false};
+    const StudySetting sppm{"sppm", "", merged(session.own_change, integrator_change(Integrator::sppm)),
+                            false};
     const auto one_pass =
         session.renderer.render(sppm, study.seed, nullptr, [](const RenderState&) { return true; });
     study.first_radius = one_pass.first_radius;
   } catch (const UserError& error) {
-    if (scene.renderer.integrator == Integrator::sppm) throw;
+    if (traces_photons(scene.renderer.integrator)) throw;
     sppm_fault = error.what();
   }
-  const ParameterContext context{scene, document, study.first_radius,
-                                 find_device(session.request.device).fp64};
-  plan_settings(study, wanted_parameters(session.request.study.parameters), context, session.own_words,
-                sppm_fault);
+  plan_settings(study, wanted_parameters(session.request.study.parameters), {scene, study.first_radius, fp64},
+                session.own_change, sppm_fault);
 }
 
 /// One run of `seconds` of passes, or to the point of the budget where `end` is; false if it was interrupted.

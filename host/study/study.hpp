@@ -2,7 +2,6 @@
 // other.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,12 +13,10 @@ namespace causticl {
 
 class KernelCache;
 
-/// A render as the command line describes it.
+/// A render as data.
 struct RenderSetup {
   Scene scene;
-  SceneOptions scene_options;  // by which it was loaded
   RenderOptions options;
-  std::string device;  // as find_device takes it
 };
 
 /// What `study` is told besides the scene and the device.
@@ -37,12 +34,8 @@ struct StudyRequest {
   std::string scene;  // file
   SceneOptions scene_options;
   StudyOptions study;
-  std::uint32_t seed = 1;
+  RenderOptions render;  // of every render; its seed is that of the first of each setting
   std::string device;    // as find_device takes it
-  unsigned threads = 0;  // 0: all
-  std::string kernel_dir;
-  /// What `causticl render` with this scene and these words of the command line renders. Throws UserError.
-  std::function<RenderSetup(const std::vector<std::string>& words)> render_setup;
 };
 
 struct StudyOutcome {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "scene/integrators.hpp"
+
 namespace causticl {
 
 const std::vector<double> study_targets{0.1, 0.05, 0.02, 0.01};
@@ -180,7 +182,9 @@ double log_slope(const std::vector<std::pair<double, double>>& points) {
   return xx > 0 ? xy / xx : 0;
 }
 
-double steepest_slope(const StudySetting& setting) { return setting.path_traced ? -1.0 / 2 : -1.0 / 3; }
+double steepest_slope(const StudySetting& setting) {
+  return row_of(setting.path_traced ? Integrator::pt : Integrator::sppm).mse_slope / 2;
+}
 
 Reach reach_of(const std::vector<ErrorAt>& curve, double target, double steepest) {
   Reach reach;

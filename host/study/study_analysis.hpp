@@ -87,6 +87,9 @@ double log_slope(const std::vector<std::pair<double, double>>& points);
 /// none where fewer than two do.
 std::optional<StudySetting> combined_setting(const Study& study, const StudyAnalysis& analysis);
 
+/// The parameters and values of the settings that make up a combined one, from its value.
+std::vector<std::pair<std::string, std::string>> parts_of_combined(const std::string& value);
+
 /// The command line that renders a setting for so many passes; a word with special characters is quoted.
 std::string study_command(const Study& study, const StudySetting& setting, double passes,
                           const std::string& limit = "");

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -68,7 +69,7 @@ std::vector<std::string> deciding_options(const StudyRequest& request) {
   std::vector<std::string> words;
   if (request.scene_options.integrator) {
     words.push_back("--integrator");
-    words.push_back(*request.scene_options.integrator == Integrator::pt ? "pt" : "sppm");
+    words.push_back(name_of(*request.scene_options.integrator));
   }
   std::vector<std::string> parameters = request.study.parameters;
   std::sort(parameters.begin(), parameters.end());
@@ -78,11 +79,11 @@ std::vector<std::string> deciding_options(const StudyRequest& request) {
   }
   words.push_back("--seeds");
   words.push_back(std::to_string(request.study.seeds));
-  if (!request.kernel_dir.empty()) {
+  if (!request.render.kernel_dir.empty()) {
     words.push_back("--kernel-dir");
-    words.push_back(request.kernel_dir);
+    words.push_back(request.render.kernel_dir);
   }
-  words.push_back("kernels:" + kernels_hash(request.kernel_dir));
+  words.push_back("kernels:" + kernels_hash(request.render.kernel_dir));
   return words;
 }
 

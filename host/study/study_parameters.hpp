@@ -1,27 +1,25 @@
 // What trades accuracy for time: the table of parameters that `causticl study` turns.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "format/json_document.hpp"
 #include "scene/scene.hpp"
+#include "study/render_change.hpp"
 
 namespace causticl {
 
 /// What the values of a parameter may depend on.
 struct ParameterContext {
-  const Scene& scene;            // as the user gave it
-  const JsonDocument& document;  // the same before it was read
-  double first_radius = 0;       // of SPPM, as the scene says or as chosen from it
-  bool fp64 = false;             // the device has double precision
+  const Scene& scene;       // as the user gave it
+  double first_radius = 0;  // of SPPM, as the scene says or as chosen from it
+  bool fp64 = false;        // the device has double precision
 };
 
-/// One position of a parameter: what `causticl render` is told for it.
+/// One position of a parameter.
 struct ParameterValue {
   std::string label;
-  std::vector<std::string> words;  // of the command line
+  RenderChange change;
 };
 
 struct StudyParameter {
@@ -29,7 +27,7 @@ struct StudyParameter {
   const char* title;                            // of its plot
   const char* unit;                             // of its values; empty: names
   const char* meaning;                          // one sentence for somebody who has not read a paper
-  bool sppm_only;                               // path tracing has no such parameter
+  bool sppm_only;                               // of photons, which other integrators do not trace
   std::string (*own)(const ParameterContext&);  // the label of what the scene itself says
   std::vector<ParameterValue> (*others)(
       const ParameterContext&);  // other values to try; empty: none make sense here
@@ -41,8 +39,5 @@ const std::vector<StudyParameter>& study_parameters();
 /// Those that `names` lists, in the order of the table; all where it is empty. Throws UserError for a name
 /// that is none.
 std::vector<const StudyParameter*> wanted_parameters(const std::vector<std::string>& names);
-
-/// Up to four significant digits, as the command line and plots show a number.
-std::string short_number(double value);
 
 }  // namespace causticl

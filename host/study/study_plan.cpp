@@ -1,25 +1,45 @@
 #include "study/study_plan.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "scene/integrators.hpp"
+#include "study/study_analysis.hpp"
 
 namespace causticl {
 
-std::vector<std::string> merged_words(const std::vector<std::string>& words,
-                                      const std::vector<std::string>& more) {
-  std::vector<std::string> result;
-  for (std::size_t i = 0; i + 1 < words.size(); i += 2)  // every option here takes one value
-    if (words[i] == "-D" || std::find(more.begin(), more.end(), words[i]) == more.end())
-      result.insert(result.end(), {words[i], words[i + 1]});
-  result.insert(result.end(), more.begin(), more.end());
-  return result;
+namespace {
+
+/// What the other values of a parameter are changes of: the scene as it is, by an integrator that has the
+/// parameter.
+RenderChange base_of(const StudyParameter& parameter, const ParameterContext& context,
+                     const RenderChange& own) {
+  return parameter.sppm_only && !traces_photons(context.scene.renderer.integrator)
+             ? merged(own, integrator_change(Integrator::sppm))
+             : own;
 }
 
+/// What "PARAMETER=VALUE" changes.
+RenderChange change_of(const std::string& name, const std::string& value, const ParameterContext& context,
+                       const RenderChange& own) {
+  for (const StudyParameter& parameter : study_parameters()) {
+    if (name != parameter.name) continue;
+    const RenderChange base = base_of(parameter, context, own);
+    for (const ParameterValue& other : parameter.others(context))
+      if (other.label == value) return merged(base, other.change);
+  }
+  throw std::runtime_error("no setting is called " + name + "=" + value);
+}
+
+}  // namespace
+
 void plan_settings(Study& study, const std::vector<const StudyParameter*>& parameters,
-                   const ParameterContext& context, const std::vector<std::string>& own_words,
+                   const ParameterContext& context, const RenderChange& own_change,
                    const std::string& sppm_fault) {
-  const bool own_pt = context.scene.renderer.integrator == Integrator::pt;
-  const StudySetting own{"scene", "", own_words, own_pt};
-  const StudySetting sppm{"integrator", "sppm", merged_words(own_words, {"--integrator", "sppm"}), false};
+  const Integrator integrator = context.scene.renderer.integrator;
+  const StudySetting own{"scene", "", own_change, passes_are_samples(integrator)};
+  const StudySetting sppm{"integrator", "sppm", merged(own_change, integrator_change(Integrator::sppm)),
+                          false};
   study.settings = {own};
   const auto add = [&](const StudySetting& setting) {
     if (!study.setting(setting.parameter, setting.value)) study.settings.push_back(setting);
@@ -35,18 +55,34 @@ void plan_settings(Study& study, const std::vector<const StudyParameter*>& param
       study.left_out.push_back(name + ": there is nothing to choose in this scene or on this device");
       continue;
     }
-    const StudySetting base = parameter->sppm_only && own_pt ? sppm : own;
+    const StudySetting base = parameter->sppm_only && !traces_photons(integrator) ? sppm : own;
     add(base);
     for (const ParameterValue& value : others) {
       if (name == "integrator" && value.label == "sppm" && !sppm_fault.empty()) {
         study.left_out.push_back("integrator=sppm: " + sppm_fault);
         continue;
       }
-      add({name, value.label, merged_words(base.words, value.words),
-           name == "integrator" ? value.label == "pt" : base.path_traced});
+      add({name, value.label, merged(base.change, value.change),
+           value.change.integrator ? passes_are_samples(*value.change.integrator) : base.path_traced});
     }
     study.own_values[name] = parameter->own(context);
     study.bases[name] = base.id();
+  }
+}
+
+void restore_settings(Study& study, const ParameterContext& context, const RenderChange& own) {
+  for (StudySetting& setting : study.settings) {
+    const std::vector<std::string> words = setting.change.words;
+    if (setting.parameter == "combined") {
+      setting.change = {};
+      for (const auto& [name, value] : parts_of_combined(setting.value))
+        setting.change = merged(setting.change, change_of(name, value, context, own));
+    } else {
+      setting.change =
+          setting.parameter == "scene" ? own : change_of(setting.parameter, setting.value, context, own);
+    }
+    if (setting.change.words != words)
+      throw std::runtime_error("the options of " + setting.id() + " are not those that it has now");
   }
 }
 

@@ -19,19 +19,18 @@ struct StudyBudget {
 };
 
 /// Fills in the settings, the parameters' own values and what each is compared with; the scene as it is comes
-/// first. `own_words` are those of an --integrator of the user. `sppm_fault` says why photon mapping cannot
-/// render the scene; empty where it can.
+/// first. `own` is an --integrator of the user. `sppm_fault` says why photon mapping cannot render the scene;
+/// empty where it can.
 void plan_settings(Study& study, const std::vector<const StudyParameter*>& parameters,
-                   const ParameterContext& context, const std::vector<std::string>& own_words,
-                   const std::string& sppm_fault);
+                   const ParameterContext& context, const RenderChange& own, const std::string& sppm_fault);
+
+/// Gives the settings of a study that was read back what they change, which its file says in words alone.
+/// Throws std::runtime_error for a setting that is none of the plan's, or says something else.
+void restore_settings(Study& study, const ParameterContext& context, const RenderChange& own);
 
 /// How long each short run takes and with how many seeds, so that all settings fit into `seconds`: at least
 /// three passes of `pass_seconds` each, and two seeds. Settings at the end of the list are dropped where even
 /// that does not fit, and said to be left out. `overhead` is what a run takes besides its passes.
 void plan_runs(Study& study, double seconds, double pass_seconds, double overhead, int wanted_seeds);
-
-/// `more` after `words`; of an option other than -D that both have, the later value is kept.
-std::vector<std::string> merged_words(const std::vector<std::string>& words,
-                                      const std::vector<std::string>& more);
 
 }  // namespace causticl

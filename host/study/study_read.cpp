@@ -132,8 +132,10 @@ Study study_of(const Json& json) {
   study.seeds = whole<int>(json, "seeds", 0, 1000);
   const Words options{"-D", "--integrator", "--photons", "--triangle-test", "--precision"};
   for (const auto& setting : json.at("settings"))
-    study.settings.push_back({setting.at("knob").get<std::string>(), setting.at("value").get<std::string>(),
-                              words_of(setting.at("words"), options), setting.at("path_traced").get<bool>()});
+    study.settings.push_back({setting.at("knob").get<std::string>(),
+                              setting.at("value").get<std::string>(),
+                              {words_of(setting.at("words"), options), {}, {}},
+                              setting.at("path_traced").get<bool>()});
   study.own_values = json.at("own_values").get<std::map<std::string, std::string>>();
   study.bases = json.at("bases").get<std::map<std::string, std::string>>();
   study.left_out = json.at("left_out").get<Words>();

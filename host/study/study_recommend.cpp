@@ -13,6 +13,9 @@ namespace {
 /// A setting must beat a measured one by this factor in time where its own time is extrapolated.
 constexpr double trust_in_measurements = 1.5;
 
+/// Between the ids of the settings that a combined one is made of.
+constexpr const char* between_parts = " + ";
+
 void recommend_for_errors(const Study& study, const StudyAnalysis& analysis,
                           std::vector<Recommendation>& recommendations) {
   for (const bool rmse : {false, true})
@@ -94,6 +97,18 @@ std::vector<Recommendation> recommend(const Study& study, const StudyAnalysis& a
   return recommendations;
 }
 
+std::vector<std::pair<std::string, std::string>> parts_of_combined(const std::string& value) {
+  std::vector<std::pair<std::string, std::string>> parts;
+  for (std::size_t begin = 0; begin < value.size();) {
+    const std::size_t end = std::min(value.find(between_parts, begin), value.size());
+    const std::string id = value.substr(begin, end - begin);
+    const std::size_t equals = std::min(id.find('='), id.size());
+    parts.emplace_back(id.substr(0, equals), equals < id.size() ? id.substr(equals + 1) : "");
+    begin = end + std::string(between_parts).size();
+  }
+  return parts;
+}
+
 std::optional<StudySetting> combined_setting(const Study& study, const StudyAnalysis& analysis) {
   StudySetting combined{"combined", "", {}, false};
   int improving = 0;
@@ -110,9 +125,9 @@ std::optional<StudySetting> combined_setting(const Study& study, const StudyAnal
     if (!best || !base || best->setting.path_traced) continue;
     const double noise = std::hypot(best->equal_time->error_90_error, base->equal_time->error_90_error);
     if (best->equal_time->error_90 + noise >= base->equal_time->error_90) continue;
-    if (improving > 0) combined.value += " + ";
+    if (improving > 0) combined.value += between_parts;
     combined.value += best->setting.id();
-    combined.words = merged_words(combined.words, best->setting.words);
+    combined.change = merged(combined.change, best->setting.change);
     ++improving;
   }
   if (improving < 2) return {};
@@ -123,7 +138,7 @@ std::string study_command(const Study& study, const StudySetting& setting, doubl
                           const std::string& limit) {
   std::vector<std::string> words{"causticl", "render", study.scene};
   words.insert(words.end(), study.words.begin(), study.words.end());
-  words.insert(words.end(), setting.words.begin(), setting.words.end());
+  words.insert(words.end(), setting.change.words.begin(), setting.change.words.end());
   words.push_back(setting.path_traced ? "--samples" : "--passes");
   constexpr double most = 1 << 30;  // that the option takes
   words.push_back(std::to_string(static_cast<long long>(std::ceil(passes < most ? passes - 1e-9 : most))));

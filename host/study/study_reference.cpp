@@ -55,18 +55,19 @@ void read_given(StudySession& session) {
 
 /// How to render a reference. Where every surface is diffuse, path tracing finds all light and blurs none;
 /// elsewhere photon mapping does better, with half the first radius so that it blurs less.
-StudySetting reference_setting(const StudySession& session) {
-  const RenderSetup setup = session.renderer.setup_of(session.own_words);
+StudySetting reference_setting(StudySession& session) {
+  const RenderSetup setup = session.renderer.setup_of(session.own_change);
   constexpr unsigned not_diffuse = effects_of_kinds(REFLECTS | TRANSMITS) | EFFECT_ROUGH;
   const unsigned effects = effect_bits(find_effects(setup.scene));
   if (!(effects & not_diffuse) || session.study.first_radius == 0)
-    return {"reference", "", merged_words(session.own_words, {"--integrator", "pt"}), true};
-  return {
-      "reference", "",
-      merged_words(session.own_words, {"--integrator", "sppm", "-D", "renderer.schedule=global", "-D",
-                                       "renderer.alpha=0.6667", "-D", "renderer.indirect_radius=1", "-D",
-                                       "renderer.radius=" + short_number(session.study.first_radius / 2)}),
-      false};
+    return {"reference", "", integrator_change(Integrator::pt), true};
+  RenderChange change = integrator_change(Integrator::sppm);
+  for (const auto& [key, value] : {std::pair{"schedule", std::string("global")},
+                                   {"alpha", "0.6667"},
+                                   {"indirect_radius", "1"},
+                                   {"radius", short_number(session.study.first_radius / 2)}})
+    change = merged(change, renderer_change(key, value));
+  return {"reference", "", change, false};
 }
 
 std::string description(const StudySetting& setting, unsigned long long passes) {

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "accuracy/compare.hpp"
+#include "scene/integrators.hpp"
 
 namespace causticl {
 namespace {
@@ -30,28 +31,35 @@ std::string kernels_of(const Scene& scene, const RenderOptions& options) {
   const RendererSpec& renderer = scene.renderer;
   std::string kernels = name_of(options.precision);
   kernels += options.triangle_test == TriangleTest::precomputed ? " precomputed" : " watertight";
-  if (renderer.integrator == Integrator::pt) return kernels + " pt";
+  if (!traces_photons(renderer.integrator)) return kernels + " " + name_of(renderer.integrator);
   kernels += renderer.direct_light == DirectLight::photons ? " photons" : " shadow_rays";
   return kernels + (renderer.photons > 65535 ? " many" : " few");
 }
 
 }  // namespace
 
-StudyRenderer::StudyRenderer(const StudyRequest& request, KernelCache& kernels,
-                             std::vector<std::string> words)
-    : request_(request), kernels_(kernels), words_(std::move(words)) {}
+StudyRenderer::StudyRenderer(const StudyRequest& request, KernelCache& kernels, std::pair<int, int> size)
+    : request_(request), kernels_(kernels), scene_options_(request.scene_options) {
+  scene_options_.size = size;
+}
 
-RenderSetup StudyRenderer::setup_of(const std::vector<std::string>& words) const {
-  std::vector<std::string> all = words_;
-  all.insert(all.end(), words.begin(), words.end());
-  return request_.render_setup(all);
+RenderSetup StudyRenderer::setup_of(const RenderChange& change) {
+  auto found = scenes_.find(change.integrator);
+  if (found == scenes_.end()) {
+    SceneOptions options = scene_options_;
+    options.integrator = change.integrator;
+    found = scenes_.emplace(change.integrator, load_scene(request_.scene, options)).first;
+  }
+  RenderSetup setup{found->second, request_.render};
+  for (const auto& step : change.steps) step(setup.scene, setup.options);
+  return setup;
 }
 
 MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t seed,
                                      const Picture* reference, const StopAsked& stop) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  RenderSetup setup = setup_of(setting.words);
+  RenderSetup setup = setup_of(setting.change);
   Scene& scene = setup.scene;
   RenderOptions& render = setup.options;
   render.seed = seed;
@@ -59,7 +67,7 @@ MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t 
 
   const std::string kernels = kernels_of(scene, render);
   if (std::find(warm_.begin(), warm_.end(), kernels) == warm_.end()) {
-    Device device(device_info, request_.threads, &kernels_);
+    Device device(device_info, request_.render.threads, &kernels_);
     Scene brief = scene;
     brief.renderer.passes = brief.renderer.samples = 1;
     render_scene(brief, device, render);
@@ -71,7 +79,7 @@ MeasuredRender StudyRenderer::render(const StudySetting& setting, std::uint32_t 
   result.run.value = setting.value;
   result.run.seed = seed;
   scene.renderer.passes = scene.renderer.samples = endless;
-  Device device(device_info, request_.threads, &kernels_);
+  Device device(device_info, request_.render.threads, &kernels_);
   if (reference)
     render.snapshot = [&](const Snapshot& now) {
       result.run.samples.push_back(sample_of(now.passes, now.photons, now.seconds, now.picture, *reference));

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "image/image.hpp"
@@ -31,23 +34,24 @@ struct MeasuredRender {
 
 class StudyRenderer {
  public:
-  /// Renders as the request has it; `words` of the command line go with every render.
-  StudyRenderer(const StudyRequest& request, KernelCache& kernels, std::vector<std::string> words);
+  /// Renders as the request has it, in pictures of this size.
+  StudyRenderer(const StudyRequest& request, KernelCache& kernels, std::pair<int, int> size);
 
-  /// Renders a setting until `stop` says so, as `causticl render` would with these words, and compares it
+  /// Renders a setting until `stop` says so, as `causticl render` would with its words, and compares it
   /// with `reference` (if not null) after passes 1, 2, 3, 4, 6, 8, ... and at the end. The kernels of a
   /// setting that comes up first are warmed up by a pass that does not count.
   MeasuredRender render(const StudySetting& setting, std::uint32_t seed, const Picture* reference,
                         const StopAsked& stop);
 
-  /// What `causticl render` renders with these words besides.
-  RenderSetup setup_of(const std::vector<std::string>& words) const;
+  /// What is rendered with these changes. Throws UserError for a scene that the integrator cannot render.
+  RenderSetup setup_of(const RenderChange& change);
 
  private:
   const StudyRequest& request_;
   KernelCache& kernels_;
-  std::vector<std::string> words_;
-  std::vector<std::string> warm_;  // kernels that have run
+  SceneOptions scene_options_;
+  std::map<std::optional<Integrator>, Scene> scenes_;  // as read for each integrator
+  std::vector<std::string> warm_;                      // kernels that have run
 };
 
 }  // namespace causticl

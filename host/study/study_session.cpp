@@ -54,8 +54,8 @@ Study new_study(const StudyRequest& request) {
     study.words.push_back(key + "=" + value);
   }
   study.options = deciding_options(request);
-  study.seed = request.seed;
-  study.threads = request.threads;
+  study.seed = request.render.seed;
+  study.threads = request.render.threads;
   const std::string& reference = request.study.reference;
   if (!reference.empty()) study.given_reference = reference + " " + file_hash(reference);
   study.date = today();
@@ -104,10 +104,9 @@ StudySession::StudySession(const StudyRequest& given, KernelCache& kernels,
                                         : given.study.folder),
       budget{given.study.budget, given.study.reference.empty()},
       study(open_study(given, folder, lock, say)),
-      renderer(given, kernels, study.words),
+      renderer(given, kernels, {study.width, study.height}),
       spent_before_(study.spent_seconds) {
-  if (request.scene_options.integrator)
-    own_words = {"--integrator", *request.scene_options.integrator == Integrator::pt ? "pt" : "sppm"};
+  if (request.scene_options.integrator) own_change = integrator_change(*request.scene_options.integrator);
 }
 
 double StudySession::spent() const {

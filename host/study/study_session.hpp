@@ -26,7 +26,7 @@ class StudySession {
   std::string folder;
   FolderLock lock;  // of the folder, taken before anything in it is looked at
   StudyBudget budget;
-  std::vector<std::string> own_words;  // of an --integrator that the user gave
+  RenderChange own_change;  // an --integrator that the user gave
   Study study;
   StudyRenderer renderer;
   Picture reference;

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/input_file.hpp"
 #include "base/output_file.hpp"
+#include "base/spelling.hpp"
 
 namespace causticl {
 namespace {
@@ -55,10 +56,8 @@ Json json_of(const StudyRun& run) {
           {"samples", samples}};
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
-  return text.empty() ? "none" : text;
+std::string words_text(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : joined(words, " ");
 }
 
 }  // namespace
@@ -97,7 +96,7 @@ std::string study_json(const Study& study) {
   for (const auto& setting : study.settings)
     settings.push_back({{"knob", setting.parameter},
                         {"value", setting.value},
-                        {"words", setting.words},
+                        {"words", setting.change.words},
                         {"path_traced", setting.path_traced}});
   for (const auto& run : study.runs) runs.push_back(json_of(run));
   if (study.reference)
@@ -139,9 +138,10 @@ std::string difference_of(const Study& found, const Study& wanted) {
   if (found.scene_hash != wanted.scene_hash) return "what " + wanted.scene + " or its meshes and images hold";
   if (found.version != wanted.version) return differs("the version", found.version, wanted.version);
   if (found.device != wanted.device) return differs("the device", found.device, wanted.device);
-  if (found.words != wanted.words) return differs("the options", joined(found.words), joined(wanted.words));
+  if (found.words != wanted.words)
+    return differs("the options", words_text(found.words), words_text(wanted.words));
   if (found.options != wanted.options)
-    return differs("the options or the kernels", joined(found.options), joined(wanted.options));
+    return differs("the options or the kernels", words_text(found.options), words_text(wanted.options));
   if (found.seed != wanted.seed)
     return differs("the seed", std::to_string(found.seed), std::to_string(wanted.seed));
   if (found.threads != wanted.threads)

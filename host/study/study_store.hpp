@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "study/render_change.hpp"
+
 namespace causticl {
 
 /// One position of one parameter; all others are as the scene says.
 struct StudySetting {
-  std::string parameter, value;    // "scene", "" for the scene as it is
-  std::vector<std::string> words;  // of the command line, besides the scene and what the study was told
-  bool path_traced = false;        // by the integrator pt, whose passes are samples
+  std::string parameter, value;  // "scene", "" for the scene as it is
+  RenderChange change;           // besides what the study was told; read back from a file, its words alone
+  bool path_traced = false;      // by an integrator whose passes are samples
   std::string id() const { return value.empty() ? parameter : parameter + "=" + value; }
 };
 

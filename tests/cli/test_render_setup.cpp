@@ -1,4 +1,6 @@
 // From the command line to what is rendered and where it goes.
+#include <iterator>
+
 #include "app/options.hpp"
 #include "app/render_setup.hpp"
 #include "catch2.hpp"
@@ -6,14 +8,11 @@
 
 using namespace causticl;
 
-namespace {}  // namespace
-
 TEST_CASE("limits of the command line replace the scene's where they apply, and say where they do not") {
   Scene scene = example_scene();
-  Options options;
-  options.passes = 3;
-  options.photons = 5;
-  options.samples = 9;
+  const char* const words[] = {"causticl",  "render", "SCENE",    "--samples", "9",
+                               "--photons", "5",      "--passes", "3"};
+  const Options options = parse_options(std::size(words), words);
   apply_options(options, scene);
   CHECK(scene.renderer.passes == 3);
   CHECK(scene.renderer.photons == 5);
@@ -29,8 +28,8 @@ TEST_CASE("outputs are those of the command line, else the scene's, else named a
   CHECK(output_files(options, scene) == std::vector<std::string>{"name.png"});
   scene.output = "of_scene.exr";
   CHECK(output_files(options, scene) == std::vector<std::string>{"of_scene.exr"});
-  options.outputs = {"a.png", "b.pfm"};
-  CHECK(output_files(options, scene) == options.outputs);
+  options.render.outputs = {"a.png", "b.pfm"};
+  CHECK(output_files(options, scene) == options.render.outputs);
 }
 
 TEST_CASE("--threads says what it cannot do on a device") {
@@ -40,10 +39,10 @@ TEST_CASE("--threads says what it cannot do on a device") {
   info.type = "gpu";
   info.compute_units = 4;
   CHECK(threads_notice(options, info).empty());
-  options.threads = 2;
+  options.render.threads = 2;
   CHECK(threads_notice(options, info) == "--threads has no effect: Card is not a CPU device");
   info.type = "cpu";
   CHECK(threads_notice(options, info).empty());
-  options.threads = 5;
+  options.render.threads = 5;
   CHECK(threads_notice(options, info) == "--threads 5: the device has 4 compute units, and all are used");
 }

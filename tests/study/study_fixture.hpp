@@ -47,8 +47,8 @@ inline Study made_study() {
   study.seeds = 2;
   study.first_radius = 0.1;
   study.settings = {{"scene", "", {}, false},
-                    {"max_depth", "2", {"-D", "max_depth=2"}, false},
-                    {"integrator", "pt", {"--integrator", "pt"}, true}};
+                    {"max_depth", "2", {{"-D", "max_depth=2"}}, false},
+                    {"integrator", "pt", integrator_change(Integrator::pt), true}};
   study.own_values = {{"max_depth", "16"}, {"integrator", "sppm"}};
   study.bases = {{"max_depth", "scene"}, {"integrator", "scene"}};
   study.left_out = {"alpha, beta: \"no time\""};

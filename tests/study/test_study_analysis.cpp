@@ -133,16 +133,16 @@ TEST_CASE("the cheapest setting is recommended, as a command to paste") {
 
 TEST_CASE("the best values are combined where two or more knobs improve") {
   Study study = made_study();
-  study.settings.push_back({"alpha", "0.5", {"-D", "renderer.alpha=0.5"}, false});
+  study.settings.push_back({"alpha", "0.5", renderer_change("alpha", "0.5"), false});
   study.bases["alpha"] = study.bases["photons"] = "scene";
   for (const std::uint32_t seed : {1u, 2u})
     study.runs.push_back(made_run(study.settings.back(), seed, 0.01, -2.0 / 3, 0.1, 64));
   CHECK_FALSE(combined_setting(study, analyse(study)));
-  study.settings.push_back({"photons", "9", {"--photons", "9"}, false});
+  study.settings.push_back({"photons", "9", photons_change(9), false});
   for (const std::uint32_t seed : {1u, 2u})
     study.runs.push_back(made_run(study.settings.back(), seed, 0.02, -2.0 / 3, 0.1, 64));
   const auto combined = combined_setting(study, analyse(study));
   REQUIRE(combined);
   CHECK(combined->id() == "combined=photons=9 + alpha=0.5");
-  CHECK(combined->words == std::vector<std::string>{"--photons", "9", "-D", "renderer.alpha=0.5"});
+  CHECK(combined->change.words == std::vector<std::string>{"--photons", "9", "-D", "renderer.alpha=0.5"});
 }

@@ -72,9 +72,9 @@ TEST_CASE("every option that decides what is rendered counts") {
   with([](StudyRequest& o) { o.scene_options.integrator = Integrator::sppm; });
   const TemporaryFolder kernels;
   kernels.write("a.cl", "one");
-  with([&](StudyRequest& o) { o.kernel_dir = kernels.path(""); });
+  with([&](StudyRequest& o) { o.render.kernel_dir = kernels.path(""); });
   kernels.write("a.cl", "two");
-  with([&](StudyRequest& o) { o.kernel_dir = kernels.path(""); });
+  with([&](StudyRequest& o) { o.render.kernel_dir = kernels.path(""); });
   CHECK(all.size() == 8);
   // Their order, and what is printed or for how long, decides nothing.
   with([](StudyRequest& o) { o.study.parameters = {"radius", "alpha"}; });

@@ -45,7 +45,7 @@ TEST_CASE("a study is the same after it was written and read") {
   CHECK(read.runs.size() == study.runs.size());
   CHECK(std::isinf(read.runs[0].samples[0].relative_mse));
   CHECK(read.runs[2].samples[3].relative_mse == study.runs[2].samples[3].relative_mse);
-  CHECK(read.settings[1].words == study.settings[1].words);
+  CHECK(read.settings[1].change.words == study.settings[1].change.words);
   CHECK(difference_of(read, study).empty());
 }
 
