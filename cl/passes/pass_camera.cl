@@ -155,9 +155,9 @@ OUTLINE uint visible_path(const Scene *scene, const Params *params, uint index, 
     }
 #if DIFFUSE_VERTICES_BATCHED
     if (is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind)) {
-      DiffuseArrival arrival = {path.ray, hit, path.throughput, path.radiance.sum, path.bounce, path.counted};
-      diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, sampler.pixel, index % params->visible_points,
-                           &arrival);
+      DiffuseArrival arrival = {path.ray,    hit,         path.throughput, path.radiance.sum,
+                                path.counted, path.bounce, sampler.pixel,   index % params->visible_points};
+      diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, &arrival);
       return path.rays;
     }
 #endif
@@ -207,8 +207,8 @@ OUTLINE uint visible_paths(const Scene *scene, const Params *params, uint first,
       Hit hit = hit_none(INFINITY);
       if (primary_hit(found, &hit))
         receives = is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind);
-      DiffuseArrival arrival = {first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), 0, false};
-      diffuse_vertices_put(&diffuse_vertices, count, pixel, sample, &arrival);
+      DiffuseArrival arrival = {first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), false, 0, pixel, sample};
+      diffuse_vertices_put(&diffuse_vertices, count, &arrival);
     }
     others[other_count] = index;
     count += receives ? 1u : 0u;

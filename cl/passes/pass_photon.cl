@@ -103,12 +103,10 @@ OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *batch, v
     geometry_closest(g, stream_ray(batch, i), &hit);
     count_diagnostics(hit.diagnostics, counters);
 #endif
-    batch->t[i] = hit.t, batch->u[i] = hit.u, batch->v[i] = hit.v, batch->primitive[i] = hit.primitive;
+    stream_put_hit(batch, i, hit);
   }
 #ifdef STREAM_BATCHED
-  RayArrays rays = {{batch->origin[0], batch->origin[1], batch->origin[2]},
-                    {batch->direction[0], batch->direction[1], batch->direction[2]},
-                    batch->t, batch->u, batch->v, batch->primitive};
+  RayArrays rays = RAY_ARRAYS(batch);
 #endif
 #if defined(STREAM_BRUTE_FORCE)
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
@@ -127,7 +125,7 @@ OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *batch
     if (!nested(scene) || batch->media[i].contact == CONTACT_NONE) continue;
     Hit hit = hit_none(INFINITY);
     media_closest(scene, batch->media + i, stream_ray(batch, i), &hit);
-    batch->t[i] = hit.t, batch->u[i] = hit.u, batch->v[i] = hit.v, batch->primitive[i] = hit.primitive;
+    stream_put_hit(batch, i, hit);
   }
 }
 
@@ -141,7 +139,7 @@ OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint coun
 #endif
   for (uint i = 0; i < count; ++i) {
     RandomStream stream = stream_random(&params, batch, i);
-    Hit hit = {batch->t[i], batch->primitive[i], batch->u[i], batch->v[i], 0};
+    Hit hit = stream_hit(batch, i);
     uint events = 0;
     if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
       PhotonState photon = stream_get(batch, i);
@@ -194,8 +192,7 @@ OUTLINE void stream_deposit(uint count, const PhotonStream *batch, global Photon
   uint room = slot < capacity ? min(stored + copies, capacity - slot) : 0, next = stored;
   for (uint k = 0; k < min(stored, room); ++k) {
     uint i = kept[k];
-    Photon photon = {{batch->position[0][i], batch->position[1][i], batch->position[2][i]},
-                     batch->normal[i], batch->flux_rg[i], batch->flux_b[i]};
+    Photon photon = stream_get_record(batch, i);
     photons[slot + k] = photon;
     if (HAS(EFFECT_SMOOTH))
       for (uint more = batch->events[i] >> EVENT_COPIES_SHIFT; more > 0 && next < room; --more) photons[slot + next++] = photon;

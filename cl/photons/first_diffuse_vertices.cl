@@ -5,6 +5,7 @@
 #include "photons/grid.cl"
 #include "photons/photon_stream.cl"
 #include "sampling/sobol.cl"
+#include "shapes/ray_components.cl"
 #include "traversal/brute_force.cl"
 #include "traversal/triangle_packet.cl"
 
@@ -15,70 +16,100 @@
 #define SHADOWS_BY_BRUTE_FORCE
 #endif
 
-// By component: the last ray of each path and its hit, what the path carries, and what is found out about its end. What
-// loops over them read is set up to stream_padded() of their number; rays beyond are masked where packets of sixteen are read.
+// A path as it comes to a diffuse surface.
 typedef struct {
-  real origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY];
-  real t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
-  uint primitive[STREAM_CAPACITY];  // as in Hit
-  real throughput[3][STREAM_CAPACITY], radiance[3][STREAM_CAPACITY];
-  uint counted[STREAM_CAPACITY];  // whether the emission there is, by path_splitting.cl
-  uint bounce[STREAM_CAPACITY];   // of the vertex
-  uint pixel[STREAM_CAPACITY], sample[STREAM_CAPACITY];  // of the path
+  Ray ray;
+  Hit hit;
+  real3 throughput, radiance;
+  bool counted;  // whether the emission there is, by path_splitting.cl
+  uint bounce;   // of the vertex
+  uint pixel, sample;
+} DiffuseArrival;
 
-  real position[3][STREAM_CAPACITY], error[STREAM_CAPACITY];  // as in Surface
-  real side[3][STREAM_CAPACITY];    // the geometric normal on the path's side
-  real facing[3][STREAM_CAPACITY];  // facing_normal()
-  real weight[3][STREAM_CAPACITY];  // of the visible point; zero where there is none
+// As lists of components.cl: what the path carries; its visible point (position and error as in Surface, the geometric normal
+// on the path's side, facing_normal(), its weight, zero where there is none); and light there, as in LightCandidate, whose
+// ray is then the path's.
+#define ARRIVAL_COMPONENTS(ROW, x) \
+  ROW(x, VECTOR, real, throughput, throughput, ALWAYS) \
+  ROW(x, VECTOR, real, radiance, radiance, ALWAYS) \
+  ROW(x, SCALAR, uint, counted, counted, ALWAYS) \
+  ROW(x, SCALAR, uint, bounce, bounce, ALWAYS) \
+  ROW(x, SCALAR, uint, pixel, pixel, ALWAYS) \
+  ROW(x, SCALAR, uint, sample, sample, ALWAYS)
+#define POINT_COMPONENTS(ROW, x) \
+  ROW(x, VECTOR, real, position, position, ALWAYS) \
+  ROW(x, SCALAR, real, error, error, ALWAYS) \
+  ROW(x, VECTOR, real, side, side, ALWAYS) \
+  ROW(x, VECTOR, real, facing, facing, ALWAYS) \
+  ROW(x, VECTOR, real, weight, weight, ALWAYS)
+#define LIGHT_COMPONENTS(ROW, x) \
+  ROW(x, SCALAR, real, distance, distance, ALWAYS) \
+  ROW(x, VECTOR, real, reflected, reflected, ALWAYS)
+
+// The visible point of a path.
+typedef struct {
+  real3 position, side, facing, weight;
+  real error;
+} DiffusePoint;
+
+// The last ray of each path and its hit, what the path carries, and what is found out about its end. What loops over them read is
+// set up to stream_padded() of their number; rays beyond are masked where packets of sixteen are read.
+typedef struct {
+  RAY_COMPONENTS(COMPONENT_FIELD, )
+  HIT_COMPONENTS(COMPONENT_FIELD, )
+  ARRIVAL_COMPONENTS(COMPONENT_FIELD, )
+  POINT_COMPONENTS(COMPONENT_FIELD, )
   uint normal[STREAM_CAPACITY];
   uint emitter[STREAM_CAPACITY];
   real random[4][STREAM_CAPACITY];  // by which it is chosen, and the place on it
-  real distance[STREAM_CAPACITY], reflected[3][STREAM_CAPACITY];  // of LightCandidate; its ray is then the path's
+  LIGHT_COMPONENTS(COMPONENT_FIELD, )
 } DiffuseVertices;
 
 INLINE PathSampler diffuse_vertex_sampler(const Params *params, const DiffuseVertices *r, uint i, uint sobol) {
   return path_sampler(params->seed, params->pass, r->pixel[i], r->sample[i], params->visible_points, sobol);
 }
 
-INLINE Ray diffuse_vertex_ray(const DiffuseVertices *r, uint i) {
-  Ray ray = {(real3)(r->origin[0][i], r->origin[1][i], r->origin[2][i]),
-             (real3)(r->direction[0][i], r->direction[1][i], r->direction[2][i])};
+INLINE Ray diffuse_vertex_ray(const DiffuseVertices *state, uint i) {
+  Ray ray;
+  RAY_COMPONENTS(LOAD_ENTRY, ray)
   return ray;
 }
 
-// A path as it comes to a diffuse surface.
-typedef struct {
-  Ray ray;
+INLINE Hit diffuse_vertex_hit(const DiffuseVertices *state, uint i) {
   Hit hit;
-  real3 throughput, radiance;
-  uint bounce;
-  bool counted;
-} DiffuseArrival;
+  HIT_COMPONENTS(LOAD_ENTRY, hit)
+  hit.diagnostics = 0;
+  return hit;
+}
 
 // Makes path i one that arrives so.
-INLINE void diffuse_vertices_put(DiffuseVertices *r, uint i, uint pixel, uint sample, const DiffuseArrival *at) {
-  Ray ray = at->ray;
-  Hit hit = at->hit;
-  real3 throughput = at->throughput, radiance = at->radiance;
-  r->origin[0][i] = ray.origin.x, r->origin[1][i] = ray.origin.y, r->origin[2][i] = ray.origin.z;
-  r->direction[0][i] = ray.direction.x, r->direction[1][i] = ray.direction.y, r->direction[2][i] = ray.direction.z;
-  r->t[i] = hit.t, r->u[i] = hit.u, r->v[i] = hit.v, r->primitive[i] = hit.primitive;
-  r->throughput[0][i] = throughput.x, r->throughput[1][i] = throughput.y, r->throughput[2][i] = throughput.z;
-  r->radiance[0][i] = radiance.x, r->radiance[1][i] = radiance.y, r->radiance[2][i] = radiance.z;
-  r->counted[i] = at->counted, r->bounce[i] = at->bounce, r->pixel[i] = pixel, r->sample[i] = sample;
+INLINE void diffuse_vertices_put(DiffuseVertices *state, uint i, const DiffuseArrival *at) {
+  RAY_COMPONENTS(STORE_ENTRY, at->ray)
+  HIT_COMPONENTS(STORE_ENTRY, at->hit)
+  ARRIVAL_COMPONENTS(STORE_ENTRY, (*at))
 }
 
 // Makes path i that before it once more.
-INLINE void diffuse_vertices_repeat(DiffuseVertices *r, uint i) {
-  for (uint k = 0; k < 3; ++k) {
-    r->origin[k][i] = r->origin[k][i - 1];
-    r->direction[k][i] = r->direction[k][i - 1];
-    r->throughput[k][i] = r->throughput[k][i - 1];
-    r->radiance[k][i] = r->radiance[k][i - 1];
-  }
-  r->t[i] = r->t[i - 1], r->u[i] = r->u[i - 1], r->v[i] = r->v[i - 1], r->primitive[i] = r->primitive[i - 1];
-  r->counted[i] = r->counted[i - 1], r->bounce[i] = r->bounce[i - 1];
-  r->pixel[i] = r->pixel[i - 1], r->sample[i] = r->sample[i - 1];
+INLINE void diffuse_vertices_repeat(DiffuseVertices *state, uint i) {
+  RAY_COMPONENTS(MOVE_ENTRY, i - 1)
+  HIT_COMPONENTS(MOVE_ENTRY, i - 1)
+  ARRIVAL_COMPONENTS(MOVE_ENTRY, i - 1)
+}
+
+INLINE DiffusePoint diffuse_vertex_get_point(const DiffuseVertices *state, uint i) {
+  DiffusePoint point;
+  POINT_COMPONENTS(LOAD_ENTRY, point)
+  return point;
+}
+
+INLINE void diffuse_vertex_put_point(DiffuseVertices *state, uint i, DiffusePoint point) {
+  POINT_COMPONENTS(STORE_ENTRY, point)
+}
+
+// The light, and its ray in place of the path's.
+INLINE void diffuse_vertex_put_light(DiffuseVertices *state, uint i, LightCandidate light) {
+  RAY_COMPONENTS(STORE_ENTRY, light.shadow)
+  LIGHT_COMPONENTS(STORE_ENTRY, light)
 }
 
 INLINE bool diffuse_vertex_reflects(const DiffuseVertices *r, uint i) {
@@ -88,7 +119,7 @@ INLINE bool diffuse_vertex_reflects(const DiffuseVertices *r, uint i) {
 // What visible_at_surface() does at a diffuse surface, for path i: the visible point, its emission, and the numbers that draw its light.
 INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, DiffuseVertices *r, uint i, uint sobol) {
   Ray ray = diffuse_vertex_ray(r, i);
-  Hit hit = {r->t[i], r->primitive[i], r->u[i], r->v[i], 0};
+  Hit hit = diffuse_vertex_hit(r, i);
   Surface surface;
   geometry_surface_soa(&scene->geometry, ray, hit, &surface);
   global const Material *material = scene->materials + surface.material;
@@ -102,12 +133,10 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
   Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
   real3 weight = scaled3(INV_PI, mul3(throughput, bsdf.color));
   weight = choose3(r->bounce[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
-  real3 p = surface.position, n = facing_normal(&surface, ray.direction), g = surface.geometric_normal;
+  real3 g = surface.geometric_normal;
   g = scaled3(dot3(g, ray.direction) < 0 ? 1 : -1, g);
-  r->position[0][i] = p.x, r->position[1][i] = p.y, r->position[2][i] = p.z, r->error[i] = surface.error;
-  r->side[0][i] = g.x, r->side[1][i] = g.y, r->side[2][i] = g.z;
-  r->facing[0][i] = n.x, r->facing[1][i] = n.y, r->facing[2][i] = n.z;
-  r->weight[0][i] = weight.x, r->weight[1][i] = weight.y, r->weight[2][i] = weight.z;
+  DiffusePoint point = {surface.position, g, facing_normal(&surface, ray.direction), weight, surface.error};
+  diffuse_vertex_put_point(r, i, point);
   r->normal[i] = normal_pack(g);
   PathSampler sampler = diffuse_vertex_sampler(params, r, i, sobol);
   real4 random = path_random4_soa(&sampler, dimension_at(r->bounce[i], DIM_LIGHT));
@@ -132,22 +161,17 @@ OUTLINE void diffuse_vertices_find_points(const Scene *from, const Params *setti
 
 // Light from the emitter chosen for the visible point of path i, whose shadow ray takes the place of the path's.
 INLINE void diffuse_vertex_light(const Scene *scene, DiffuseVertices *r, uint i) {
+  DiffusePoint at = diffuse_vertex_get_point(r, i);
   Surface surface;
-  surface.position = (real3)(r->position[0][i], r->position[1][i], r->position[2][i]);
-  surface.geometric_normal = (real3)(r->side[0][i], r->side[1][i], r->side[2][i]);
-  surface.error = r->error[i];
-  real3 n = (real3)(r->facing[0][i], r->facing[1][i], r->facing[2][i]);
-  real3 weight = (real3)(r->weight[0][i], r->weight[1][i], r->weight[2][i]);
+  surface.position = at.position;
+  surface.geometric_normal = at.side;
+  surface.error = at.error;
   real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
   Bsdf bsdf;
   bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
-  LitPoint point = {&bsdf, &surface, interior_none(), diffuse_vertex_ray(r, i).direction, n};
-  LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &point, weight, random, false);
-  real3 o = light.shadow.origin, d = light.shadow.direction, l = light.reflected;
-  r->origin[0][i] = o.x, r->origin[1][i] = o.y, r->origin[2][i] = o.z;
-  r->direction[0][i] = d.x, r->direction[1][i] = d.y, r->direction[2][i] = d.z;
-  r->distance[i] = light.distance;
-  r->reflected[0][i] = l.x, r->reflected[1][i] = l.y, r->reflected[2][i] = l.z;
+  LitPoint point = {&bsdf, &surface, interior_none(), diffuse_vertex_ray(r, i).direction, at.facing};
+  LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &point, at.weight, random, false);
+  diffuse_vertex_put_light(r, i, light);
 }
 
 OUTLINE void diffuse_vertices_sample_lights(const Scene *from, uint count, DiffuseVertices *r) {
@@ -174,8 +198,7 @@ OUTLINE uint diffuse_vertices_occlusion(const Scene *scene, uint count, DiffuseV
     r->t[i] = asks ? r->distance[i] : -INFINITY;
     r->primitive[i] = HIT_NONE;
   }
-  RayArrays shadows = {{r->origin[0], r->origin[1], r->origin[2]},
-                       {r->direction[0], r->direction[1], r->direction[2]}, r->t, r->u, r->v, r->primitive};
+  RayArrays shadows = RAY_ARRAYS(r);
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &shadows);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
   for (uint i = 0; i < count; ++i) {

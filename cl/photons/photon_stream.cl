@@ -4,7 +4,9 @@
 #include "film/light_passes.cl"
 #include "scene/path_media.cl"
 #include "sampling/rng.cl"
+#include "core/components.cl"
 #include "core/stream_size.cl"
+#include "shapes/ray_components.cl"
 
 // Photons for each item of a work-group, whose first item traces those of all, and places that must be free before new
 // photons join the batch.
@@ -39,75 +41,88 @@ typedef struct {
   uint diagnostics;
 } PhotonState;
 
+// What a batch keeps of each, as lists of components.cl. Fields that not every batch has stand last, so that the others keep
+// their alignment.
+#define PHOTON_COMPONENTS(ROW, x) /* of PhotonState, beside its ray */ \
+  ROW(x, VECTOR, real, flux, flux, ALWAYS) \
+  ROW(x, SCALAR, uint, mark, mark, ALWAYS)
+#define PHOTON_PATH_COMPONENTS(ROW, x) /* of its path: the index of that in the pass, and the events that lie behind it */ \
+  ROW(x, SCALAR, uint, index, index, ALWAYS) \
+  ROW(x, SCALAR, uint, bounce, bounce, ALWAYS)
+#define PHOTON_RECORD_COMPONENTS(ROW, x) /* of a Photon */ \
+  ROW(x, ARRAY,  real, position, position, ALWAYS) \
+  ROW(x, SCALAR, uint, normal, normal, ALWAYS) \
+  ROW(x, SCALAR, uint, flux_rg, flux_rg, ALWAYS) \
+  ROW(x, SCALAR, uint, flux_b, flux_b, ALWAYS)
+#define PHOTON_EFFECT_COMPONENTS(ROW, x) /* of PhotonState, with an effect */ \
+  ROW(x, SCALAR, uint, prefix, prefix, OUTPUT_LIGHT_PASSES) \
+  ROW(x, SCALAR, Interior, interior, interior, EFFECT_ABSORPTION | EFFECT_MEDIUM) \
+  ROW(x, SCALAR, PathMedia, media, media, EFFECT_NESTED)
+// `copy` and `fresh` as in RandomStream; `seed` is its place in the list of seeds; `useful` not 0 where it has landed where the
+// camera sees.
+#define METROPOLIS_COMPONENTS(ROW, x) \
+  ROW(x, SCALAR, uint, copy, copy, EFFECT_GUIDED_PHOTONS) \
+  ROW(x, SCALAR, uint, fresh, fresh, EFFECT_GUIDED_PHOTONS) \
+  ROW(x, SCALAR, uint, seed, seed, EFFECT_GUIDED_PHOTONS) \
+  ROW(x, SCALAR, uint, useful, useful, EFFECT_GUIDED_PHOTONS)
+
 typedef struct {
-  real origin[3][STREAM_CAPACITY], direction[3][STREAM_CAPACITY], flux[3][STREAM_CAPACITY];
-  uint index[STREAM_CAPACITY];      // of the photon's path in its pass
-  uint bounce[STREAM_CAPACITY];     // events that lie behind it
-  uint mark[STREAM_CAPACITY];       // INDIRECT_PHOTON, or 0
-  uint primitive[STREAM_CAPACITY];  // as in Hit
-  real t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];
+  RAY_COMPONENTS(COMPONENT_FIELD, )
+  PHOTON_COMPONENTS(COMPONENT_FIELD, )
+  PHOTON_PATH_COMPONENTS(COMPONENT_FIELD, )
+  HIT_COMPONENTS(COMPONENT_FIELD, )
   uint events[STREAM_CAPACITY];  // EVENT_* bits
-  real position[3][STREAM_CAPACITY];  // of its record, and the rest of that
-  uint normal[STREAM_CAPACITY], flux_rg[STREAM_CAPACITY], flux_b[STREAM_CAPACITY];
-  uint prefix[(EFFECTS & OUTPUT_LIGHT_PASSES) ? STREAM_CAPACITY : 1u];
-  Interior interior[(EFFECTS & (EFFECT_ABSORPTION | EFFECT_MEDIUM)) ? STREAM_CAPACITY : 1u];
-  PathMedia media[(EFFECTS & EFFECT_NESTED) ? STREAM_CAPACITY : 1u];
-  uint copy[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? STREAM_CAPACITY : 1u];  // as in RandomStream
-  uint fresh[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? STREAM_CAPACITY : 1u];
-  uint seed[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? STREAM_CAPACITY : 1u];  // its place in the list of seeds
-  uint useful[(EFFECTS & EFFECT_GUIDED_PHOTONS) ? STREAM_CAPACITY : 1u];  // not 0 where it has landed where the camera sees
+  PHOTON_RECORD_COMPONENTS(COMPONENT_FIELD, )
+  PHOTON_EFFECT_COMPONENTS(COMPONENT_FIELD, )
+  METROPOLIS_COMPONENTS(COMPONENT_FIELD, )
 } PhotonStream;
 
-INLINE Ray stream_ray(const PhotonStream *batch, uint i) {
-  Ray ray = {(real3)(batch->origin[0][i], batch->origin[1][i], batch->origin[2][i]),
-             (real3)(batch->direction[0][i], batch->direction[1][i], batch->direction[2][i])};
+INLINE Ray stream_ray(const PhotonStream *state, uint i) {
+  Ray ray;
+  RAY_COMPONENTS(LOAD_ENTRY, ray)
   return ray;
 }
 
-INLINE PhotonState stream_get(const PhotonStream *batch, uint i) {
+INLINE Hit stream_hit(const PhotonStream *state, uint i) {
+  Hit hit;
+  HIT_COMPONENTS(LOAD_ENTRY, hit)
+  hit.diagnostics = 0;
+  return hit;
+}
+
+INLINE void stream_put_hit(PhotonStream *state, uint i, Hit hit) { HIT_COMPONENTS(STORE_ENTRY, hit) }
+
+INLINE PhotonState stream_get(const PhotonStream *state, uint i) {
   PhotonState photon;
-  photon.ray = stream_ray(batch, i);
-  photon.flux = (real3)(batch->flux[0][i], batch->flux[1][i], batch->flux[2][i]);
-  photon.mark = batch->mark[i];
-  photon.prefix = HAS(OUTPUT_LIGHT_PASSES) ? batch->prefix[i] : PREFIX_DIRECT;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) photon.interior = batch->interior[i];
-  if (HAS(EFFECT_NESTED)) photon.media = batch->media[i], photon.diagnostics = 0;
+  photon.prefix = PREFIX_DIRECT;
+  photon.diagnostics = 0;
+  RAY_COMPONENTS(LOAD_ENTRY, photon.ray)
+  PHOTON_COMPONENTS(LOAD_ENTRY, photon)
+  PHOTON_EFFECT_COMPONENTS(LOAD_ENTRY, photon)
   return photon;
 }
 
-INLINE void stream_put(PhotonStream *batch, uint i, const PhotonState *photon) {
-  real3 origin = photon->ray.origin, direction = photon->ray.direction, flux = photon->flux;
-  batch->origin[0][i] = origin.x, batch->origin[1][i] = origin.y, batch->origin[2][i] = origin.z;
-  batch->direction[0][i] = direction.x, batch->direction[1][i] = direction.y, batch->direction[2][i] = direction.z;
-  batch->flux[0][i] = flux.x, batch->flux[1][i] = flux.y, batch->flux[2][i] = flux.z;
-  batch->mark[i] = photon->mark;
-  if (HAS(OUTPUT_LIGHT_PASSES)) batch->prefix[i] = photon->prefix;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) batch->interior[i] = photon->interior;
-  if (HAS(EFFECT_NESTED)) batch->media[i] = photon->media;
+INLINE void stream_put(PhotonStream *state, uint i, const PhotonState *photon) {
+  RAY_COMPONENTS(STORE_ENTRY, photon->ray)
+  PHOTON_COMPONENTS(STORE_ENTRY, (*photon))
+  PHOTON_EFFECT_COMPONENTS(STORE_ENTRY, (*photon))
 }
 
-INLINE void stream_put_record(PhotonStream *batch, uint i, const Photon *record) {
-  batch->position[0][i] = record->position[0], batch->position[1][i] = record->position[1];
-  batch->position[2][i] = record->position[2];
-  batch->normal[i] = record->normal, batch->flux_rg[i] = record->flux_rg, batch->flux_b[i] = record->flux_b;
+INLINE Photon stream_get_record(const PhotonStream *state, uint i) {
+  Photon record;
+  PHOTON_RECORD_COMPONENTS(LOAD_ENTRY, record)
+  return record;
 }
 
-// Moves photon `from` to place `to`.
-INLINE void stream_move(PhotonStream *batch, uint from, uint to) {
-  for (uint k = 0; k < 3; ++k) {
-    batch->origin[k][to] = batch->origin[k][from];
-    batch->direction[k][to] = batch->direction[k][from];
-    batch->flux[k][to] = batch->flux[k][from];
-  }
-  batch->index[to] = batch->index[from];
-  batch->bounce[to] = batch->bounce[from];
-  batch->mark[to] = batch->mark[from];
-  if (HAS(OUTPUT_LIGHT_PASSES)) batch->prefix[to] = batch->prefix[from];
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) batch->interior[to] = batch->interior[from];
-  if (HAS(EFFECT_NESTED)) batch->media[to] = batch->media[from];
-  if (!HAS(EFFECT_GUIDED_PHOTONS)) return;
-  batch->copy[to] = batch->copy[from];
-  batch->fresh[to] = batch->fresh[from];
-  batch->seed[to] = batch->seed[from];
-  batch->useful[to] = batch->useful[from];
+INLINE void stream_put_record(PhotonStream *state, uint i, const Photon *record) {
+  PHOTON_RECORD_COMPONENTS(STORE_ENTRY, (*record))
+}
+
+// Makes photon `i` what photon `from` is, but for its hit and its record.
+INLINE void stream_move(PhotonStream *state, uint from, uint i) {
+  RAY_COMPONENTS(MOVE_ENTRY, from)
+  PHOTON_COMPONENTS(MOVE_ENTRY, from)
+  PHOTON_PATH_COMPONENTS(MOVE_ENTRY, from)
+  PHOTON_EFFECT_COMPONENTS(MOVE_ENTRY, from)
+  METROPOLIS_COMPONENTS(MOVE_ENTRY, from)
 }

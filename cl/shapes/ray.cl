@@ -17,19 +17,6 @@ typedef struct {
   uint diagnostics;     // DIAGNOSTIC_* bits of this ray; see diagnostics.cl
 } Hit;
 
-// Rays by component, and up to where they are traced or what they have met so far, as Hit has it.
-typedef struct {
-  const real *origin[3], *direction[3];
-  real *t, *u, *v;
-  uint *primitive;
-} RayArrays;
-
-INLINE Ray arrays_ray(const RayArrays *rays, uint i) {
-  Ray ray = {(real3)(rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]),
-             (real3)(rays->direction[0][i], rays->direction[1][i], rays->direction[2][i])};
-  return ray;
-}
-
 #define HIT_NONE 0xffffffffu
 #define HIT_SHAPE 0x80000000u
 

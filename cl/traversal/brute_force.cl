@@ -8,6 +8,7 @@
 // For float, the watertight test, and a tree of triangles, spheres and disks, BRUTE_FORCE_PRIMITIVES at most. Arrays of
 // rays hold whole packets.
 #include "shapes/primitives/plane.cl"
+#include "shapes/ray_components.cl"
 #include "traversal/kdtree.cl"
 #include "traversal/triangle_packet.cl"
 
@@ -153,10 +154,10 @@ INLINE uint brute_force_closest(global const KdNode *nodes, global const Triangl
     packet_store(&hits, member, rays->t + first, rays->u + first, rays->v + first, rays->primitive + first);
     for (uint again = hits.again; again != 0; again &= again - 1u) {
       uint i = first + lowest_bit(again);
-      Hit hit = {rays->t[i], rays->primitive[i], rays->u[i], rays->v[i], 0};
+      Hit hit = arrays_hit(rays, i);
       kdtree_closest(nodes, blocks, shapes, curves, arrays_ray(rays, i), &hit);
       cut_short += (hit.diagnostics & DIAGNOSTIC_TRAVERSAL_BOUND) ? 1u : 0u;
-      rays->t[i] = hit.t, rays->u[i] = hit.u, rays->v[i] = hit.v, rays->primitive[i] = hit.primitive;
+      arrays_put_hit(rays, i, hit);
     }
   }
   return cut_short;

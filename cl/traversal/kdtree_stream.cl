@@ -10,23 +10,39 @@
 //
 // On devices that run the items of a work-group in turn; for float and the watertight test.
 #include "traversal/kdtree.cl"
-#include "core/vector.cl"
+#include "core/components.cl"
 #include "core/stream_size.cl"
+#include "core/vector.cl"
+#include "shapes/ray_components.cl"
 
 #if STREAM_CAPACITY > 1u && !defined(CAUSTICL_DOUBLE) && !defined(TRIANGLES_PRECOMPUTED)
 #define KDTREE_STREAMS
 #endif
 
 #ifdef KDTREE_STREAMS
+// As lists of components.cl: of a SlabRay, and of a TriangleRay.
+#define SLAB_COMPONENTS(ROW, x) \
+  ROW(x, VECTOR, float, inverse, inverse, ALWAYS) \
+  ROW(x, VECTOR, float, widening, widening, ALWAYS) \
+  ROW(x, VECTOR, float, enter, enter, ALWAYS) \
+  ROW(x, VECTOR, float, leave, leave, ALWAYS) \
+  ROW(x, PARTS,  uint,  near, near_, ALWAYS) \
+  ROW(x, PARTS,  uint,  far, far_, ALWAYS)
+#define SLAB_ORIGIN_COMPONENTS(ROW, x) ROW(x, VECTOR, float, origin, origin, ALWAYS)
+#define TRIANGLE_COMPONENTS(ROW, x) \
+  ROW(x, PARTS,  uint,  axis, , ALWAYS) \
+  ROW(x, PARTS,  float, sheared_origin, origin_, ALWAYS) \
+  ROW(x, SCALAR, float, shear_x, shear_x, ALWAYS) \
+  ROW(x, SCALAR, float, shear_y, shear_y, ALWAYS) \
+  ROW(x, SCALAR, float, scale_z, scale_z, ALWAYS)
+
 // Where each ray is in the tree, and what it has met so far.
 typedef struct {
-  float inverse[3][STREAM_CAPACITY], widening[3][STREAM_CAPACITY];  // these and the next two as in SlabRay
-  float enter[3][STREAM_CAPACITY], leave[3][STREAM_CAPACITY];
-  uint near[3][STREAM_CAPACITY], far[3][STREAM_CAPACITY];
-  uint axis[3][STREAM_CAPACITY];  // these and the next line as in TriangleRay
-  float sheared_origin[3][STREAM_CAPACITY], shear[2][STREAM_CAPACITY], scale_z[STREAM_CAPACITY];
-  float origin[3][STREAM_CAPACITY], t[STREAM_CAPACITY], u[STREAM_CAPACITY], v[STREAM_CAPACITY];  // of ray and hit
-  uint primitive[STREAM_CAPACITY], diagnostics[STREAM_CAPACITY];
+  SLAB_COMPONENTS(COMPONENT_FIELD, )
+  TRIANGLE_COMPONENTS(COMPONENT_FIELD, )
+  SLAB_ORIGIN_COMPONENTS(COMPONENT_FIELD, )
+  HIT_COMPONENTS(COMPONENT_FIELD, )
+  uint diagnostics[STREAM_CAPACITY];  // of the hit
   uint node[STREAM_CAPACITY], slot[STREAM_CAPACITY];  // where it is, and the child that it is at or has just left
   uint again[STREAM_CAPACITY];  // 1 where the node is to be tested for children after `slot` alone
   uint more[STREAM_CAPACITY];   // as in kdtree_closest(), like the trail
@@ -37,48 +53,40 @@ typedef struct {
 // compiler makes branches.
 INLINE uint chosen(uint use_first, uint first, uint second) { return second ^ ((second ^ first) & -use_first); }
 
-INLINE void traverse_axis(StreamTraversal *traverse, uint k, uint i, float origin, SlabAxis s) {
-  traverse->origin[k][i] = origin;
-  traverse->inverse[k][i] = s.inverse, traverse->widening[k][i] = s.widening;
-  traverse->enter[k][i] = s.enter, traverse->leave[k][i] = s.leave;
-  traverse->near[k][i] = s.near, traverse->far[k][i] = s.far;
+INLINE SlabRay traverse_slab(const StreamTraversal *state, uint i) {
+  SlabRay slab;
+  SLAB_ORIGIN_COMPONENTS(LOAD_ENTRY, slab)
+  SLAB_COMPONENTS(LOAD_ENTRY, slab)
+  return slab;
 }
 
-INLINE void traverse_begin(global const KdNode *root, const RayArrays *rays, StreamTraversal *traverse, uint i) {
+INLINE TriangleRay traverse_triangle(const StreamTraversal *state, uint i) {
+  TriangleRay ray;
+  TRIANGLE_COMPONENTS(LOAD_ENTRY, ray)
+  return ray;
+}
+
+INLINE Hit traverse_hit(const StreamTraversal *state, uint i) {
+  Hit hit;
+  HIT_COMPONENTS(LOAD_ENTRY, hit)
+  hit.diagnostics = state->diagnostics[i];
+  return hit;
+}
+
+INLINE void traverse_put_hit(StreamTraversal *state, uint i, Hit hit) {
+  HIT_COMPONENTS(STORE_ENTRY, hit)
+  state->diagnostics[i] = hit.diagnostics;
+}
+
+INLINE void traverse_begin(global const KdNode *root, const RayArrays *rays, StreamTraversal *state, uint i) {
   Ray ray = arrays_ray(rays, i);
-  float x = ray.origin.x, y = ray.origin.y, z = ray.origin.z, farthest = farthest_in_tree(root, x, y, z);
-  traverse_axis(traverse, 0, i, x, slab_axis(x, ray.direction.x, farthest, 0));
-  traverse_axis(traverse, 1, i, y, slab_axis(y, ray.direction.y, farthest, 8));
-  traverse_axis(traverse, 2, i, z, slab_axis(z, ray.direction.z, farthest, 16));
-  TriangleRay t = triangle_ray(ray);
-  traverse->axis[0][i] = t.x, traverse->axis[1][i] = t.y, traverse->axis[2][i] = t.z;
-  traverse->sheared_origin[0][i] = t.origin_x, traverse->sheared_origin[1][i] = t.origin_y;
-  traverse->sheared_origin[2][i] = t.origin_z;
-  traverse->shear[0][i] = t.shear_x, traverse->shear[1][i] = t.shear_y, traverse->scale_z[i] = t.scale_z;
-  traverse->t[i] = rays->t[i], traverse->u[i] = rays->u[i], traverse->v[i] = rays->v[i], traverse->primitive[i] = rays->primitive[i];
-  traverse->diagnostics[i] = 0;
-  traverse->node[i] = 0, traverse->slot[i] = 0, traverse->again[i] = 0, traverse->more[i] = 0, traverse->trail[i] = 0;
-}
-
-INLINE SlabRay traverse_slab(const StreamTraversal *traverse, uint i) {
-  SlabRay s;
-  s.origin = (float3)(traverse->origin[0][i], traverse->origin[1][i], traverse->origin[2][i]);
-  s.inverse = (float3)(traverse->inverse[0][i], traverse->inverse[1][i], traverse->inverse[2][i]);
-  s.widening = (float3)(traverse->widening[0][i], traverse->widening[1][i], traverse->widening[2][i]);
-  s.enter = (float3)(traverse->enter[0][i], traverse->enter[1][i], traverse->enter[2][i]);
-  s.leave = (float3)(traverse->leave[0][i], traverse->leave[1][i], traverse->leave[2][i]);
-  s.near_x = traverse->near[0][i], s.near_y = traverse->near[1][i], s.near_z = traverse->near[2][i];
-  s.far_x = traverse->far[0][i], s.far_y = traverse->far[1][i], s.far_z = traverse->far[2][i];
-  return s;
-}
-
-INLINE TriangleRay traverse_triangle(const StreamTraversal *traverse, uint i) {
-  TriangleRay t;
-  t.x = traverse->axis[0][i], t.y = traverse->axis[1][i], t.z = traverse->axis[2][i];
-  t.origin_x = traverse->sheared_origin[0][i], t.origin_y = traverse->sheared_origin[1][i];
-  t.origin_z = traverse->sheared_origin[2][i];
-  t.shear_x = traverse->shear[0][i], t.shear_y = traverse->shear[1][i], t.scale_z = traverse->scale_z[i];
-  return t;
+  SlabRay slab = slab_ray(ray, root);
+  TriangleRay triangle = triangle_ray(ray);
+  SLAB_ORIGIN_COMPONENTS(STORE_ENTRY, slab)
+  SLAB_COMPONENTS(STORE_ENTRY, slab)
+  TRIANGLE_COMPONENTS(STORE_ENTRY, triangle)
+  traverse_put_hit(state, i, arrays_hit(rays, i));
+  state->node[i] = 0, state->slot[i] = 0, state->again[i] = 0, state->more[i] = 0, state->trail[i] = 0;
 }
 
 INLINE uint traverse_child(global const KdNode *nodes, const StreamTraversal *traverse, uint i) {
@@ -160,12 +168,11 @@ INLINE uint traverse_triangles(global const KdNode *nodes, global const Triangle
 // The same for a leaf that holds other shapes too.
 INLINE uint traverse_shapes(global const KdNode *nodes, global const TriangleBlock *blocks, global const Shape *shapes,
                         global const float *curves, const RayArrays *rays, StreamTraversal *traverse, uint i) {
-  Hit hit = {traverse->t[i], traverse->primitive[i], traverse->u[i], traverse->v[i], traverse->diagnostics[i]};
+  Hit hit = traverse_hit(traverse, i);
   uint count = nodes[traverse->node[i]].block_count[traverse->slot[i]];
   TreeRay r = {arrays_ray(rays, i), traverse_triangle(traverse, i), traverse_slab(traverse, i)};
   bool found = leaf_closest(blocks, shapes, curves, traverse_child(nodes, traverse, i), count, &r, &hit);
-  traverse->t[i] = hit.t, traverse->primitive[i] = hit.primitive, traverse->u[i] = hit.u, traverse->v[i] = hit.v;
-  traverse->diagnostics[i] = hit.diagnostics;
+  traverse_put_hit(traverse, i, hit);
   return found ? 1u : 0u;
 }
 
@@ -243,8 +250,9 @@ OUTLINE void kdtree_stream(global const KdNode *nodes, global const TriangleBloc
     }
   }
   for (uint i = 0; i < count; ++i) {
-    rays.t[i] = traverse.t[i], rays.u[i] = traverse.u[i], rays.v[i] = traverse.v[i], rays.primitive[i] = traverse.primitive[i];
-    diagnostics[i] = traverse.diagnostics[i];
+    Hit hit = traverse_hit(&traverse, i);
+    arrays_put_hit(&rays, i, hit);
+    diagnostics[i] = hit.diagnostics;
   }
   for (uint k = 0; k < node_count; ++k) diagnostics[at_node[k]] |= DIAGNOSTIC_TRAVERSAL_BOUND;
   for (uint k = 0; k < leaf_count; ++k) diagnostics[at_leaf[k]] |= DIAGNOSTIC_TRAVERSAL_BOUND;
