@@ -5,7 +5,10 @@
 namespace causticl {
 
 std::string SourceLocation::text() const {
-  return file + (line > 0 ? ":" + std::to_string(line) : "") + (what.empty() ? "" : ": " + what);
+  std::string result = file;
+  if (line > 0) result += ':' + std::to_string(line);
+  if (!what.empty()) result.append(": ").append(what);
+  return result;
 }
 
 void SourceLocation::fail(const std::string& message) const { throw UserError(text() + ": " + message); }
