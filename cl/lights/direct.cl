@@ -143,7 +143,7 @@ static real3 direct_light(const Scene *scene, const LitPoint *point, real3 refle
 // density of the ray's direction, 0 where no light sample could find what it does.
 INLINE real3 escaped_radiance(const Scene *scene, real3 direction, real bsdf_pdf) {
   real pdf;
-  real3 radiance = environment_radiance(scene, direction, &pdf);
+  real3 radiance = background_radiance(scene, direction, &pdf);
   return bsdf_pdf > 0 ? radiance * power_weight(bsdf_pdf, pdf) : radiance;
 }
 

@@ -3,8 +3,8 @@
 // A texel is chosen by the whole numbers that it owns, then a point about its centre with the density of a tent. The
 // sum of all tents is bilinear interpolation: the density of the points is that of the texels, interpolated as
 // radiance is, and the two stay in proportion between the texels too.
-#include "lights/infinite_light.cl"
-#include "scene/scene.cl"
+#include "lights/horizon_emission.cl"
+#include "lights/light_sample.cl"
 
 typedef struct {
   real3 radiance;
@@ -58,7 +58,7 @@ INLINE real environment_pdf(real density, real sine) { return density / (2 * PI 
 INLINE real tent_sample(real u) { return u < (real)0.5 ? sqrt(2 * u) - 1 : 1 - sqrt(2 - 2 * u); }
 
 // The point of the map that `number`, of those that the environment owns, and u choose.
-INLINE real2 environment_sample(const Scene *scene, global const Emitter *emitter, ulong number, real2 u) {
+INLINE real2 environment_place(const Scene *scene, global const Emitter *emitter, ulong number, real2 u) {
   uint width = emitter->shape, height = emitter->first_area;
   uint low = 0, high = width * height - 1;
   while (low < high) {
@@ -75,16 +75,37 @@ INLINE real2 environment_sample(const Scene *scene, global const Emitter *emitte
   return (real2)(x - floor(x), y > 1 ? 2 - y : y);
 }
 
-// Radiance that a ray into the open finds along `direction`, and *pdf, the density per solid angle with which
-// light_sample draws that direction. Zero in a scene without environment.
-INLINE real3 environment_radiance(const Scene *scene, real3 direction, real *pdf) {
-  *pdf = 0;
-  if (scene->emitter_count == 0) return (real3)(0, 0, 0);
-  global const Emitter *emitter = scene->emitters + scene->emitter_count - 1;
-  if (emitter->type != EMITTER_ENVIRONMENT) return (real3)(0, 0, 0);
+// What a ray that leaves the scene finds along `direction`, and *pdf, the density per solid angle with which
+// environment_sample draws that direction.
+INLINE real3 environment_radiance(const Scene *scene, global const Emitter *emitter, real3 direction, real *pdf) {
   real sine;
   real2 position = environment_position(emitter, direction, &sine);
   EnvironmentValue value = environment_lookup(scene, emitter, position);
   *pdf = emitter->probability * environment_pdf(value.density, sine);
   return value.radiance;
+}
+
+// A direction in proportion to its radiance.
+INLINE LightSample environment_sample(const Scene *scene, global const Emitter *emitter, real3 position, real4 random) {
+  LightSample sample = {(real3)(0, 0, 1), INFINITY, (real3)(0, 0, 0), 0, 0};
+  ulong number = owned_number(scene, emitter, random.x, random.w);
+  real2 place = environment_place(scene, emitter, number, random.yz);
+  EnvironmentValue value = environment_lookup(scene, emitter, place);
+  real sine;
+  sample.direction = environment_direction(emitter, place, &sine);
+  sample.pdf = emitter->probability * environment_pdf(value.density, sine);
+  if (sample.pdf > 0) sample.weight = value.radiance / sample.pdf;
+  return sample;
+}
+
+// A photon: direction in proportion to radiance, from the disc before the scene, or from before its infinite planes.
+INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, real4 choice, real2 u, real3 *flux) {
+  ulong number = owned_number(scene, emitter, choice.x, choice.w);
+  real2 place = environment_place(scene, emitter, number, choice.yz);
+  EnvironmentValue value = environment_lookup(scene, emitter, place);
+  real sine, weight;
+  Ray ray = infinite_light_ray(scene, emitter, -environment_direction(emitter, place, &sine), u, &weight);
+  real pdf = environment_pdf(value.density, sine);
+  *flux = pdf > 0 ? value.radiance * weight / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
+  return ray;
 }

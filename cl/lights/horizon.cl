@@ -54,5 +54,5 @@ INLINE bool passes_sphere(const Geometry *g, real3 position, real3 direction) {
 
 // Whether the emitter chosen by these numbers is one that is beyond the scene.
 INLINE bool lit_from_beyond(const Scene *scene, real4 random) {
-  return scene->emitters[emitter_choose(scene, random.x, random.w)].type >= EMITTER_DIRECTIONAL;
+  return light_is(scene->emitters + emitter_choose(scene, random.x, random.w), LIGHTS_WITH(BEYOND_SCENE));
 }

@@ -45,3 +45,12 @@ INLINE Ray horizon_ray(const Scene *scene, global const Emitter *emitter, real3 
   Ray ray = {point + (isfinite(start) ? start : 0) * direction, direction};
   return ray;
 }
+
+// A photon of a light from beyond the scene that travels along `direction`, drawn by numbers from the unit square. *weight
+// is its flux over that of a disc alone.
+INLINE Ray infinite_light_ray(const Scene *scene, global const Emitter *emitter, real3 direction, real2 u, real *weight) {
+  *weight = 1;
+  if (has_horizon(&scene->geometry)) return horizon_ray(scene, emitter, direction, u, weight);
+  Ray ray = {infinite_light_origin(emitter, direction, u), direction};
+  return ray;
+}

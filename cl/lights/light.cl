@@ -1,180 +1,27 @@
-// Emitters: choosing one, drawing a point on it, light arriving from it, photons leaving it.
-#include "lights/delta_light.cl"
-#include "lights/environment.cl"
-#include "lights/horizon_emission.cl"
-#include "sampling/rng.cl"
+// All lights: what arrives from them at a point, photons that leave them, and the density with which a ray is drawn that
+// has met one. Each kind is a file and a row of LIGHT_TABLE; what is in none of its rows is an emissive surface.
+#include "lights/all_lights.cl"
 
-// A light's contribution to a point: radiance / pdf, not yet multiplied by BSDF, cosine and visibility.
-typedef struct {
-  real3 direction;  // unit, from the lit point
-  real distance;
-  real3 weight;     // radiance / pdf; zero where nothing arrives
-  real pdf;         // per solid angle, the choice of emitter included; infinite for delta lights
-  real margin;      // what to stop a shadow ray short by, so that it does not meet the light itself; of no meaning where
-                    // the weight is zero
-} LightSample;
+#define IS_LIGHT(emitter, NAME, effect) (HAS(effect) && (emitter)->type == LIGHT_##NAME)
 
-// The number made of all 24 bits of u and the low 23 bits of v: the 24 bits of one random number are too few to choose
-// among a million emitters. The highest bit of v is left to the caller.
-INLINE ulong emitter_number(real u, real v) {
-  return (ulong)(uint)(u * 16777216) << 23 | ((uint)(v * 16777216) & 0x7fffffu);
-}
+// Whether the light is one of `lights`, as LIGHTS_WITH() gives them.
+INLINE bool light_is(global const Emitter *emitter, uint lights) { return (lights >> emitter->type & 1u) != 0u; }
 
-// The emitter that owns the number of u and v.
-INLINE uint emitter_choose(const Scene *scene, real u, real v) {
-  ulong number = emitter_number(u, v);
-  uint low = 0, high = scene->emitter_count - 1;
-  while (low < high) {
-    uint middle = (low + high) / 2;
-    if (number < scene->emitters[middle].cdf)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
-}
-
-// Density per area of points that emitter_point draws on this radiance, choice of emitter included.
-INLINE real emitter_area_pdf(const Scene *scene, real3 radiance, bool two_sided) {
-  return max_component(radiance) * (two_sided ? 2 : 1) * scene->emitter_density;
-}
-
-// Area-uniform in the curve's own space: which step of the table of cumulative area, then uniform in t within.
-// Returns t and *density, the probability density of t.
-INLINE real bezier_parameter(global const float *table, uint steps, real u, real *density) {
-  uint low = 0, high = steps - 1;
-  while (low < high) {
-    uint middle = (low + high) / 2;
-    if (u < table[middle])
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  real before = low == 0 ? (real)0 : (real)table[low - 1];
-  real pmf = table[low] - before;
-  *density = pmf * steps;
-  return (low + (pmf > 0 ? clamp((u - before) / pmf, (real)0, (real)1) : (real)0.5)) / steps;
-}
-
-INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) {
-  uint step = min((uint)(t * steps), steps - 1);
-  return (table[step] - (step == 0 ? 0 : table[step - 1])) * steps;
-}
-
-// A point on an emitter with its outward unit normal, *error as in Surface and *pdf per area given the emitter.
-INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, real u, real v, real3 *normal,
-                           real *error, real *pdf) {
-  global const float *row = (global const float *)emitter;
-  real3 a = (real3)(row[0], row[1], row[2]), b = (real3)(row[4], row[5], row[6]), c = (real3)(row[8], row[9], row[10]);
-  uint type = emitter->type;
-  // Scaled first: the product of long or short edges leaves the range of a float.
-  real3 across = cross3(quotient3(b, max_component(abs3(b))), quotient3(c, max_component(abs3(c))));
-  across = unit3(scaled3(unit_scale(max_component(abs3(across))), across));
-  real2 d = triangle_uniform((real2)(u, v));
-  real dx = d.x, dy = d.y, x = across.x, y = across.y, z = across.z;
-  if (type == EMITTER_DISK) {
-    d = disc_uniform((real2)(u, v));
-    dx = d.x, dy = d.y;
-  }
-  bool sphere = HAS(EFFECT_SPHERES) && type == EMITTER_SPHERE;
-  if (sphere) {
-    real3 outward = sphere_uniform((real2)(u, v));
-    x = outward.x, y = outward.y, z = outward.z;
-  }
-  *normal = (real3)(x, y, z);
-  real3 point = choose3(sphere, add3(a, scaled3(row[3], *normal)), add3(add3(a, scaled3(dx, b)), scaled3(dy, c)));
-  *pdf = 1 / (real)row[15];
-  if (HAS(EFFECT_BEZIER) && type == EMITTER_BEZIER) {
-    global const Shape *shape = scene->geometry.shapes + emitter->shape;
-    real density, area;
-    real t = bezier_parameter(scene->geometry.curves + emitter->first_area, EMITTER_AREA_STEPS, u, &density);
-    bezier_point(shape, scene->geometry.curves, v, t, &point, normal, &area);
-    *pdf = area > 0 ? density / area : 0;
-  }
-  real3 size = add3(add3(add3(abs3(a), abs3(b)), abs3(c)), abs3(point));
-  *error = STORED_GAMMA(8) * (max_component(size) + row[3]);
-  return point;
-}
-
-// The environment is the last of the emitters. Which of the numbers that it owns was drawn with u and v.
-INLINE ulong environment_number(const Scene *scene, real u, real v) {
-  ulong number = emitter_number(u, v);
-  return scene->emitter_count > 1 ? number - scene->emitters[scene->emitter_count - 2].cdf : number;
-}
-
-// light_sample for the environment: a direction in proportion to its radiance.
-INLINE LightSample environment_light(const Scene *scene, global const Emitter *emitter, real4 random) {
-  LightSample sample = {(real3)(0, 0, 1), INFINITY, (real3)(0, 0, 0), 0, 0};
-  ulong number = environment_number(scene, random.x, random.w);
-  real2 position = environment_sample(scene, emitter, number, random.yz);
-  EnvironmentValue value = environment_lookup(scene, emitter, position);
-  real sine;
-  sample.direction = environment_direction(emitter, position, &sine);
-  sample.pdf = emitter->probability * environment_pdf(value.density, sine);
-  if (sample.pdf > 0) sample.weight = value.radiance / sample.pdf;
-  return sample;
-}
-
-// light_sample for a point, spot or directional light.
-INLINE LightSample delta_light(global const Emitter *emitter, real3 position) {
-  LightSample sample = {(real3)(0, 0, 1), 1, (real3)(0, 0, 0), INFINITY, 0};
-  sample.weight = delta_light_arrival(emitter, position, &sample.direction, &sample.distance) / emitter->probability;
-  return sample;
-}
+#define SAMPLE_DELTA(NAME, name, effect) \
+  if (IS_LIGHT(emitter, NAME, effect)) return name##_sample(scene, emitter, position, random);
+#define SAMPLE_BACKGROUND(NAME, name, effect) SAMPLE_DELTA(NAME, name, effect)
+#define SAMPLE_EMISSIVE(NAME, name, effect)
+#define SAMPLE_LIGHT(x, NAME, number, name, effect, family, ...) SAMPLE_##family(NAME, name, effect)
 
 // light_sample() from the emitter that emitter_choose() finds by random.x and random.w.
 INLINE LightSample light_sample_from(const Scene *scene, uint chosen, real3 position, real4 random) {
   global const Emitter *emitter = scene->emitters + chosen;
-  if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
-    return environment_light(scene, emitter, random);
-  if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) return delta_light(emitter, position);
-  global const float *row = (global const float *)emitter, *power = (global const float *)&emitter->radiance;
-  real3 radiance = (real3)(power[0], power[1], power[2]);
-  real probability = emitter->probability;
-  real3 to_centre = sub3((real3)(row[0], row[1], row[2]), position);
-  real radius = row[3], centre_distance2 = dot3(to_centre, to_centre);
-  bool outside = HAS(EFFECT_SPHERES) && emitter->type == EMITTER_SPHERE &&
-                 centre_distance2 > radius * radius * (real)1.0002f;
-  real x, y, z, distance, pdf, margin;  // scalars alone leave the branches: see vector.cl
-  bool edge_on = false;
-  if (!outside) {
-    real3 normal;
-    real error, area_pdf;
-    real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
-    real3 to_light = sub3(point, position);
-    real distance2 = dot3(to_light, to_light), length = sqrt(distance2);
-    real3 towards = choose3(distance2 > 0, quotient3(to_light, length), (real3)(0, 0, 1));
-    x = towards.x, y = towards.y, z = towards.z, distance = length;
-    real cosine = -dot3(towards, normal);
-    cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
-    // A ray to a light that is seen edge-on stops so short of it that a wall before the light may be missed. That light is
-    // less than a millionth of what the light sends elsewhere, and is left out.
-    edge_on = cosine < (real)1e-3f && 4 * error > (real)0.01f * distance * cosine;
-    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
-    pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
-    // An error of the surface's place moves the hit by 1 / cosine times as much.
-    margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
-  } else {
-    real sine2 = radius * radius / centre_distance2;
-    real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));
-    real3 drawn = cone_uniform_by(random.y, random.z, quotient3(to_centre, sqrt(centre_distance2)), one_minus_cos);
-    x = drawn.x, y = drawn.y, z = drawn.z;
-    real along = dot3(to_centre, drawn);
-    real3 miss = sub3(to_centre, scaled3(along, drawn));
-    real half_chord = sqrt(max((real)0, radius * radius - dot3(miss, miss)));
-    distance = along - half_chord;
-    pdf = probability / (2 * PI * one_minus_cos);
-    // An error of the distance between centre and ray moves the hit by radius / half_chord times as much.
-    real rounding = GAMMA(16) * (max_component(abs3(position)) + max_component(abs3(to_centre)) + radius);
-    margin = (real)1e-5f * distance + radius * rounding / max(half_chord, rounding);
-  }
-  LightSample sample = {(real3)(x, y, z), distance, quotient3(radiance, pdf > 0 ? pdf : 1), pdf, margin};
-  sample.weight = choose3(pdf > 0 && !edge_on, sample.weight, (real3)(0, 0, 0));
-  return sample;
+  LIGHT_TABLE(SAMPLE_LIGHT, )
+  return area_light_sample(scene, emitter, position, random);
 }
 
 // Light that may reach `position` from one emitter, chosen by power. A sphere seen from outside is sampled in
-// its cone of directions (Shirley, Wang, Zimmerman 1996), all else by area.
+// its cone of directions (Shirley, Wang, Zimmerman 1996), other surfaces by area.
 static LightSample light_sample(const Scene *scene, real3 position, real4 random) {
   return light_sample_from(scene, emitter_choose(scene, random.x, random.w), position, random);
 }
@@ -184,49 +31,23 @@ static LightSample light_sample(const Scene *scene, real3 position, real4 random
 // light_sample never draws.
 static real light_pdf(const Scene *scene, real3 origin, real3 direction, Hit hit, const Surface *surface,
                       global const Material *material) {
-  real3 radiance = convert_real3(material->emission.xyz);
-  bool two_sided = (material->flags & MATERIAL_TWO_SIDED) != 0;
-  real area_pdf = emitter_area_pdf(scene, radiance, two_sided);
-  if (hit.primitive != HIT_NONE && (hit.primitive & HIT_SHAPE)) {
-    global const Shape *shape = scene->geometry.shapes + (hit.primitive & ~HIT_SHAPE);
-    if (HAS(EFFECT_PLANES) && shape->type == SHAPE_PLANE) return 0;
-    if (HAS(EFFECT_SPHERES) && shape->type == SHAPE_SPHERE) {
-      real3 to_centre = convert_real3(shape->sphere.xyz) - origin;
-      real radius = shape->sphere.w, distance2 = dot3(to_centre, to_centre);
-      if (distance2 > radius * radius * (real)1.0002f) {
-        real sine2 = radius * radius / distance2;
-        return area_pdf * 4 * PI * radius * radius / (2 * PI * (sine2 / (1 + sqrt(1 - sine2))));
-      }
-    }
-    if (HAS(EFFECT_BEZIER) && shape->type == SHAPE_BEZIER) {
-      real3 point, normal;
-      real area;
-      bezier_point(shape, scene->geometry.curves, surface->uv.x, surface->uv.y, &point, &normal, &area);
-      global const float *table = scene->geometry.curves + shape->area_table;
-      real total = shape->area;
-      area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, surface->uv.y) / area : 0;
-    }
-  }
-  real cosine = fabs(dot3(direction, surface->geometric_normal));
-  return cosine > 0 ? area_pdf * hit.t * hit.t / cosine : 0;
+  return area_light_pdf(scene, origin, direction, hit, surface, material);
 }
 
-// A photon of the environment: direction in proportion to radiance, origin on the disc before the scene.
-INLINE Ray environment_emit(const Scene *scene, global const Emitter *emitter, real4 choice, real2 place,
-                            real3 *flux) {
-  ulong number = environment_number(scene, choice.x, choice.w);
-  real2 position = environment_sample(scene, emitter, number, choice.yz);
-  EnvironmentValue value = environment_lookup(scene, emitter, position);
-  real sine;
-  Ray ray;
-  ray.direction = -environment_direction(emitter, position, &sine);
-  real pdf = environment_pdf(value.density, sine), weight = 1;
-  if (has_horizon(&scene->geometry))
-    ray = horizon_ray(scene, emitter, ray.direction, place, &weight);
-  else
-    ray.origin = infinite_light_origin(emitter, ray.direction, place);
-  *flux = pdf > 0 ? value.radiance * weight / (pdf * emitter->radiance.x) : (real3)(0, 0, 0);
-  return ray;
+#define RADIANCE_DELTA(NAME, name, effect)
+#define RADIANCE_BACKGROUND(NAME, name, effect) \
+  if (IS_LIGHT(emitter, NAME, effect)) return name##_radiance(scene, emitter, direction, pdf);
+#define RADIANCE_EMISSIVE(NAME, name, effect)
+#define BACKGROUND_RADIANCE(x, NAME, number, name, effect, family, ...) RADIANCE_##family(NAME, name, effect)
+
+// Radiance that a ray into the open finds along `direction`, and *pdf, the density per solid angle with which
+// light_sample draws that direction. Zero in a scene without background, which is the last of the emitters.
+INLINE real3 background_radiance(const Scene *scene, real3 direction, real *pdf) {
+  *pdf = 0;
+  if (scene->emitter_count == 0) return (real3)(0, 0, 0);
+  global const Emitter *emitter = scene->emitters + scene->emitter_count - 1;
+  LIGHT_TABLE(BACKGROUND_RADIANCE, )
+  return (real3)(0, 0, 0);
 }
 
 // The emitter of a photon, chosen by power.
@@ -235,31 +56,18 @@ INLINE uint photon_emitter(const Scene *scene, RandomStream stream) {
   return emitter_choose(scene, choice.x, choice.w);
 }
 
-// Starts a photon of an emitter: point by area, direction by cosine, which u and v draw, uniform numbers. Returns its
-// ray; *flux is relative to Params.photon_flux, its largest channel 1 on average: 1 from triangles, spheres, disks, point
-// and directional lights; about 1 from curves and the environment, whose points are not exactly in proportion to power; up to 2 from a spot.
-// `choice` are the numbers of DIM_EMITTER, by which the emitter was chosen too.
+#define EMIT_DELTA(NAME, name, effect) \
+  if (IS_LIGHT(emitter, NAME, effect)) return name##_emit(scene, emitter, choice, (real2)(u, v), flux);
+#define EMIT_BACKGROUND(NAME, name, effect) EMIT_DELTA(NAME, name, effect)
+#define EMIT_EMISSIVE(NAME, name, effect)
+#define EMIT_LIGHT(x, NAME, number, name, effect, family, ...) EMIT_##family(NAME, name, effect)
+
+// Starts a photon of an emitter, which `choice`, the numbers of DIM_EMITTER by which the emitter was chosen too, and u and
+// v draw, uniform numbers. Returns its ray; *flux is relative to Params.photon_flux, its largest channel 1 on average: 1
+// from triangles, spheres, disks, point and directional lights; about 1 from curves and the environment, whose points are
+// not exactly in proportion to power; up to 2 from a spot.
 INLINE Ray photon_emit_from(const Scene *scene, uint chosen, real4 choice, real u, real v, real3 *flux) {
   global const Emitter *emitter = scene->emitters + chosen;
-  global const float *power = (global const float *)&emitter->radiance;
-  real3 normal, radiance = (real3)(power[0], power[1], power[2]);
-  if (HAS(EFFECT_ENVIRONMENT) && emitter->type == EMITTER_ENVIRONMENT)
-    return environment_emit(scene, emitter, choice, (real2)(u, v), flux);
-  if (HAS(EFFECT_DELTA_LIGHTS) && emitter->type >= EMITTER_POINT) {
-    real weight;
-    Ray ray = delta_light_ray(emitter, (real2)(u, v), &weight);
-    if (emitter->type == EMITTER_DIRECTIONAL && has_horizon(&scene->geometry))
-      ray = horizon_ray(scene, emitter, ray.direction, (real2)(u, v), &weight);
-    *flux = radiance * (weight / max_component(radiance));
-    return ray;
-  }
-  real error, area_pdf;
-  real3 point = emitter_point(scene, emitter, choice.y, choice.z, &normal, &error, &area_pdf);
-  normal = scaled3(emitter->two_sided != 0 && choice.w < (real)0.5f ? -1 : 1, normal);
-  Ray ray;
-  ray.direction = hemisphere_cosine_by(u, v, normal);
-  ray.origin = offset_origin(point, error, normal, ray.direction);
-  real weight = area_pdf > 0 ? 1 : 0, whole = max_component(radiance) * area_pdf * power[3];
-  *flux = quotient3(scaled3(weight, radiance), area_pdf > 0 ? whole : 1);
-  return ray;
+  LIGHT_TABLE(EMIT_LIGHT, )
+  return area_light_emit(scene, emitter, choice, u, v, flux);
 }

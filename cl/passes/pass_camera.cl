@@ -140,7 +140,7 @@ OUTLINE uint visible_path(const Scene *scene, const Params *params, uint index, 
   Boundary boundary;
   CameraPath path = camera_path_begin(scene, &boundary, ray, sampler.stream, params->max_depth, counters);
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
-  bool delta_lights = HAS(EFFECT_DELTA_LIGHTS) && params->delta_lights > 0;
+  bool delta_lights = HAS(EFFECTS_OF_LIGHTS(DELTA)) && params->delta_lights > 0;
   VisiblePath visible = {params, &sampler, index % params->visible_points, shadow_rays, false,
                          {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}}, (real3)(0, 0, 0)};
   for (; path.bounce <= params->max_depth; ++path.bounce) {

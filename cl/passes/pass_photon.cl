@@ -80,7 +80,7 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, Guidance by,
     PhotonState photon;
     photon.ray = ray, photon.flux = flux;
     photon.prefix = PREFIX_DIRECT, photon.mark = 0, photon.interior = interior_none();
-    if (HAS(EFFECT_HORIZON) && scene.emitters[emitter].type >= EMITTER_DIRECTIONAL) photon.mark = FROM_BEYOND;
+    if (HAS(EFFECT_HORIZON) && light_is(scene.emitters + emitter, LIGHTS_WITH(BEYOND_SCENE))) photon.mark = FROM_BEYOND;
     if (HAS(EFFECT_NESTED)) {
       uint diagnostics = 0;
       photon.media = media_at_emitter(&scene, emitter, ray, &diagnostics);

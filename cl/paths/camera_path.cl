@@ -59,7 +59,7 @@ INLINE bool camera_path_trace(const Scene *scene, CameraPath *path, const Bounda
 
 // Adds the light from beyond the scene that a path into the open finds.
 INLINE void camera_path_escape(const Scene *scene, CameraPath *path) {
-  if (HAS(EFFECT_ENVIRONMENT) && !path->counted)
+  if (HAS(EFFECTS_OF_LIGHTS(BACKGROUND)) && !path->counted)
     radiance_add(&path->radiance, path->prefix,
                  path->throughput * escaped_radiance(scene, path->ray.direction, path->bsdf_pdf));
 }

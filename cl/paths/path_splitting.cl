@@ -51,7 +51,7 @@ OUTLINE void trace_unlikely_branch(const Scene *scene, const PathVertex *from, c
     bool did_hit = media_closest(scene, &boundary.media, ray, &hit);
     count_diagnostics(hit.diagnostics, counters);
     if (!did_hit) {
-      if (HAS(EFFECT_ENVIRONMENT))
+      if (HAS(EFFECTS_OF_LIGHTS(BACKGROUND)))
         radiance_add(radiance, PREFIX_NO_DIFFUSE, branch_throughput * escaped_radiance(scene, ray.direction, 0));
       return;
     }

@@ -5,6 +5,7 @@
 // the scene does not need.
 #pragma once
 
+#include "shared/lights.h"
 #include "shared/materials.h"
 #include "shared/passes.h"
 #include "shared/shapes.h"
@@ -30,7 +31,7 @@
 // programs of passes.h whose kernels ask for it with HAS() (the others are compiled without it, and are the same for every
 // scene); the steps that cannot be batched with it; where its primitives are; its name in text.
 // What in a scene calls for an effect: the function of its name in host/effects/effect_reasons.cpp.
-// Those of shapes are in shapes.h, those of materials in materials.h. `ROW(x, ...)` is made of each row.
+// Those of shapes, lights and materials are in shapes.h, lights.h and materials.h. `ROW(x, ...)` is made of each row.
 #define EFFECT_TABLE(ROW, x) \
   ROW(x, TRIANGLES,      0,  "triangles",      IN_PATHS,              BATCHED,                  TRIANGLE_LEAVES, "triangles") \
   SHAPE_EFFECTS(ROW, x) \
@@ -38,8 +39,7 @@
   ROW(x, LENS,           8,  "lens",           IN_CAMERA | IN_PATH,   BATCHED,                  NO_GEOMETRY,     "depth of field") \
   ROW(x, SHADOW_RAYS,    9,  "shadow_rays",    IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "direct light by shadow rays") \
   ROW(x, ROUGH,          10, "rough",          IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "rough lobes") \
-  ROW(x, ENVIRONMENT,    13, "environment",    IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "light from beyond the scene") \
-  ROW(x, DELTA_LIGHTS,   14, "delta_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "point, spot and directional lights") \
+  LIGHT_EFFECTS(ROW, x) \
   ROW(x, ABSORPTION,     15, "absorption",     IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "absorption in glass") \
   ROW(x, DISPERSION,     16, "dispersion",     IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "dispersion") \
   ROW(x, MOTION,         17, "motion",         0u,                    BATCHED,                  NO_GEOMETRY,     "motion blur") \

@@ -114,14 +114,11 @@ CHECK_SIZE(TriangleAttributes, 40);
 // The squared sine of the angle at its first corner below which a triangle is a sliver (EFFECT_SLIVERS).
 #define SLIVER_SINE2 0.01f
 
+// Emitters that are surfaces. The numbers of the others are in lights.h.
 #define EMITTER_TRIANGLE 0u
 #define EMITTER_SPHERE 1u
 #define EMITTER_DISK 2u
 #define EMITTER_BEZIER 3u
-#define EMITTER_POINT 4u        // the first that is no surface
-#define EMITTER_SPOT 5u
-#define EMITTER_DIRECTIONAL 6u
-#define EMITTER_ENVIRONMENT 7u  // the last emitter of a scene that has one
 
 // Steps in t of the table of cumulative area by which points on a revolved curve are drawn.
 #define EMITTER_AREA_STEPS 64u
@@ -140,10 +137,10 @@ typedef struct {
   float4 radiance;    // point, spot: intensity; directional: irradiance; environment: integral over all directions
   ulong cdf;          // how many numbers this emitter and all before it own; the last one's are all
   float probability;  // the fraction of the numbers that it owns
-  uint type;          // EMITTER_TRIANGLE ...
+  uint type;          // EMITTER_TRIANGLE ..., LIGHT_POINT ...
   uint two_sided;
-  uint shape;         // EMITTER_BEZIER: index into shapes; EMITTER_ENVIRONMENT: width of the map
-  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer; EMITTER_ENVIRONMENT: height
+  uint shape;         // EMITTER_BEZIER: index into shapes; LIGHT_ENVIRONMENT: width of the map
+  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer; LIGHT_ENVIRONMENT: height
   uint in_dielectric; // 1 where a dielectric may hold or touch it (EFFECT_NESTED)
 } Emitter;
 CHECK_SIZE(Emitter, 96);

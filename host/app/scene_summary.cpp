@@ -11,6 +11,7 @@
 #include "integrators/integrators.hpp"
 #include "scene/dielectrics.hpp"
 #include "scene/integrators.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "scene/shape_kind.hpp"
@@ -111,26 +112,19 @@ void print_materials(std::ostream& text, const Scene& scene) {
   }
 }
 
-std::string delta_light_line(const DeltaLight& light) {
+std::string light_line(const LightSpec& light) {
+  const LightRow& row = row_of(light.kind);
   std::ostringstream text;
-  text << light.pointer << ": ";
-  if (light.kind == DeltaLight::Kind::directional) {
-    text << "directional light toward " << triple(light.direction) << ", irradiance ";
-  } else {
-    const bool spot = light.kind == DeltaLight::Kind::spot;
-    text << (spot ? "spot light of " : "point light");
-    if (spot) text << light.angle << " degrees";
-    text << " at " << triple(light.position) << ", intensity ";
-  }
-  text << triple(light.intensity);
+  text << light.pointer << ": " << row.text;
+  if ((row.keys & CONE_KEY) != 0) text << " of " << light.angle << " degrees";
+  if ((row.keys & DIRECTION_KEY) != 0) text << " toward " << triple(light.direction);
+  if ((row.keys & POSITION_KEY) != 0) text << " at " << triple(light.position);
+  if ((row.keys & INTENSITY_KEY) != 0) text << ", intensity " << triple(light.intensity);
+  if ((row.keys & IRRADIANCE_KEY) != 0) text << ", irradiance " << triple(light.intensity);
+  if (light.map.rgba.empty()) return text.str();
+  if (!light.map.file.empty()) text << " " << printable_line(light.map.file) << ",";
+  text << " " << light.map.width << " x " << light.map.height << " texels";
   return text.str();
-}
-
-std::string environment_line(const Environment& environment) {
-  std::string line = environment.pointer + ": environment ";
-  if (!environment.map.file.empty()) line += printable_line(environment.map.file) + ", ";
-  return line + std::to_string(environment.map.width) + " x " + std::to_string(environment.map.height) +
-         " texels";
 }
 
 void print_emitters(std::ostream& text, const Scene& scene) {
@@ -141,9 +135,8 @@ void print_emitters(std::ostream& text, const Scene& scene) {
     lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : name_of(object.shape)) +
                     ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
   }
-  for (const DeltaLight& light : scene.lights)
-    if (is_lit(light)) lines.push_back(delta_light_line(light));
-  if (scene.environment && is_lit(*scene.environment)) lines.push_back(environment_line(*scene.environment));
+  for (const LightSpec& light : scene.lights)
+    if (is_lit(light)) lines.push_back(light_line(light));
   text << "emitters    " << lines.size() << "\n";
   for (std::size_t i = 0; i < std::min(lines.size(), longest_list); ++i) text << "  " << lines[i] << "\n";
   if (lines.size() > longest_list) text << "  and " << lines.size() - longest_list << " more\n";

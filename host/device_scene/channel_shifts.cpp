@@ -25,9 +25,9 @@ void add_light(std::vector<LightChannels>& lights, const std::string& pointer, V
 }
 
 /// The largest ratio of each channel that any texel has: photons come from single texels.
-void add_environment(std::vector<LightChannels>& lights, const Environment& environment) {
-  LightChannels light{environment.pointer, {}};
-  const auto& texels = environment.map.rgba;
+void add_map(std::vector<LightChannels>& lights, const LightSpec& map) {
+  LightChannels light{map.pointer, {}};
+  const auto& texels = map.map.rgba;
   const auto is_rich = [&] {
     return std::all_of(light.ratios.begin(), light.ratios.end(), [](double s) { return s >= least_ratio; });
   };
@@ -43,8 +43,12 @@ std::vector<LightChannels> lights_of(const Scene& scene) {
   std::vector<LightChannels> lights;
   for (const auto& object : scene.objects)
     add_light(lights, object.pointer, scene.materials[static_cast<std::size_t>(object.material)].emission);
-  for (const auto& light : scene.lights) add_light(lights, light.pointer, light.intensity);
-  if (scene.environment && is_lit(*scene.environment)) add_environment(lights, *scene.environment);
+  for (const auto& light : scene.lights) {
+    if (light.map.rgba.empty())
+      add_light(lights, light.pointer, light.intensity);
+    else if (is_lit(light))
+      add_map(lights, light);
+  }
   return lights;
 }
 

@@ -85,10 +85,8 @@ void place_flat_scene(const Scene& scene, double time, Device& device, DeviceSce
   out.plane_count = world.plane_count;
   out.emitter_count = static_cast<uint>(world.emitters.size());
   out.delta_lights = static_cast<uint>(
-      std::count_if(world.emitters.begin(), world.emitters.end(), [](const Emitter& emitter) {
-        return emitter.type == EMITTER_POINT || emitter.type == EMITTER_SPOT ||
-               emitter.type == EMITTER_DIRECTIONAL;
-      }));
+      std::count_if(world.emitters.begin(), world.emitters.end(),
+                    [](const Emitter& emitter) { return (LIGHTS_WITH(DELTA) >> emitter.type & 1) != 0; }));
   out.emitted_power = world.emitted_power;
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -4,6 +4,7 @@
 
 #include "effects/walls_reason.hpp"
 #include "scene/dielectrics.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/shape_kind.hpp"
 
@@ -49,14 +50,13 @@ std::string by_kind(const Scene& scene, unsigned effect) {
   return found == scene.materials.end() ? "" : by_material(scene, name_of(found->kind), wanted);
 }
 
-std::string environment_reason(const Scene& scene) {
-  return scene.environment && is_lit(*scene.environment) ? "environment " + scene.environment->pointer : "";
-}
-
-std::string delta_lights_reason(const Scene& scene) {
-  const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
-                                  [](const DeltaLight& light) { return is_lit(light); });
-  return found == scene.lights.end() ? "" : "light " + found->pointer;
+/// The first light that gives light and that `wanted` accepts.
+template <typename Predicate>
+std::string by_light(const Scene& scene, const Predicate& wanted) {
+  const auto found = std::find_if(scene.lights.begin(), scene.lights.end(), [&](const LightSpec& light) {
+    return wanted(row_of(light.kind)) && is_lit(light);
+  });
+  return found == scene.lights.end() ? "" : row_of(found->kind).text + (" " + found->pointer);
 }
 
 bool fills(const MediumSpec& medium) {
@@ -99,24 +99,13 @@ std::string effect_reason<EFFECT_SHADOW_RAYS>(const Scene& scene) {
   std::string surface =
       first_object(scene, wanted, [&](const Object& object) { return key + "emitter " + object.pointer; });
   if (!surface.empty()) return surface;
-  const std::string delta_light = delta_lights_reason(scene), environment = environment_reason(scene);
-  if (!delta_light.empty()) return key + delta_light;
-  return environment.empty() ? "" : key + environment;
+  const std::string light = by_light(scene, [](const LightRow&) { return true; });
+  return light.empty() ? "" : key + light;
 }
 
 template <>
 std::string effect_reason<EFFECT_ROUGH>(const Scene& scene) {
   return by_material(scene, "roughness", [](const MaterialSpec& material) { return material.roughness > 0; });
-}
-
-template <>
-std::string effect_reason<EFFECT_ENVIRONMENT>(const Scene& scene) {
-  return environment_reason(scene);
-}
-
-template <>
-std::string effect_reason<EFFECT_DELTA_LIGHTS>(const Scene& scene) {
-  return delta_lights_reason(scene);
 }
 
 template <>
@@ -191,6 +180,13 @@ template <>
 std::string effect_reason<EFFECT_HORIZON>(const Scene& scene) {
   return has_infinite_light(scene) ? by_shape(scene, EFFECT_PLANES) : "";
 }
+
+#define REASON_OF_LIGHT(x, name, ...)                                                            \
+  template <>                                                                                    \
+  std::string effect_reason<EFFECT_##name>(const Scene& scene) {                                 \
+    return by_light(scene, [](const LightRow& light) { return light.effect == EFFECT_##name; }); \
+  }
+LIGHT_EFFECTS(REASON_OF_LIGHT, )
 
 #define REASON_OF_MATERIAL(x, name, ...)                         \
   template <>                                                    \

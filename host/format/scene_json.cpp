@@ -8,6 +8,7 @@
 #include "format/scene_loader.hpp"
 #include "format/scene_output.hpp"
 #include "scene/integrators.hpp"
+#include "scene/light_kind.hpp"
 
 namespace causticl {
 namespace {
@@ -59,10 +60,10 @@ MediumSpec read_medium(const SceneObject& json) {
 // scene.
 void refuse_infinite_light(const SceneObject& json, const Scene& scene) {
   if (!(max_component(scene.medium.absorption + scene.medium.scattering) > 0)) return;
-  const bool directional = std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
-    return light.kind == DeltaLight::Kind::directional;
+  const bool infinite = std::any_of(scene.lights.begin(), scene.lights.end(), [](const LightSpec& light) {
+    return has_property(light.kind, BEYOND_SCENE);
   });
-  if (directional || scene.environment)
+  if (infinite)
     json.at("medium").fail(
         "expected no environment and no directional light beside a medium, which swallows light "
         "from infinitely far, got one; use a large disk or a point light");

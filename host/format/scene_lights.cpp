@@ -1,10 +1,9 @@
 // The entries of `lights`.
 #include "format/scene_loader.hpp"
+#include "scene/light_kind.hpp"
 
 namespace causticl {
 namespace {
-
-using Kind = DeltaLight::Kind;
 
 Vec3 read_direction(const SceneValue& json) {
   const Vec3 direction = json.vector();
@@ -12,46 +11,31 @@ Vec3 read_direction(const SceneValue& json) {
   return normalize(direction);
 }
 
-void add_delta_light(const SceneObject& json, Kind kind, Scene& scene) {
-  DeltaLight light;
-  light.kind = kind;
-  light.pointer = json.pointer();
-  if (kind == Kind::directional) {
-    light.direction = read_direction(json.at("direction"));
-    light.intensity = json.color("irradiance");
-  } else {
-    light.position = json.vector("position");
-    light.intensity = json.color("intensity");
-  }
-  if (kind == Kind::spot) {
-    const Vec3 axis = json.vector("target") - light.position;
-    if (length(axis) < positive_number.low)
-      json.at("target").fail("expected a point other than `position`, got the same");
-    light.direction = normalize(axis);
-    light.angle = json.number("angle");
-    light.blend = json.number("blend");
-  }
-  scene.lights.push_back(light);
+// The frame about `position` whose +z is the unit vector `direction`.
+Transform facing(Vec3 position, Vec3 direction) {
+  const Vec3 z = direction, side = std::fabs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 x = normalize(cross(side, z)), y = cross(z, x);
+  Transform transform;
+  for (int axis = 0; axis < 3; ++axis) transform.rows[axis] = {x[axis], y[axis], z[axis]};
+  transform.translation = position;
+  return transform;
 }
 
-// A surface as others: it is seen, and emits on the side of its normal.
-void add_disk(const SceneObject& json, Scene& scene) {
-  Object light;
-  light.shape = Object::Shape::disk;
-  light.pointer = json.pointer();
-  light.is_disc_light = true;
-  light.radius = json.number("radius");
-  const Vec3 n = read_direction(json.at("normal"));
-  const Vec3 x = normalize(cross(std::fabs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), y = cross(n, x);
-  for (int axis = 0; axis < 3; ++axis) light.transform.rows[axis] = {x[axis], y[axis], n[axis]};
-  light.transform.translation = json.vector("position");
+// A black surface as others: it is seen, and emits on the side of its normal.
+void add_body(const SceneObject& json, const LightSpec& light, Scene& scene) {
+  Object body;
+  body.shape = Object::Shape::disk;
+  body.pointer = light.pointer;
+  body.is_disc_light = true;
+  body.radius = json.number("radius");
+  body.transform = facing(light.position, light.direction);
 
   MaterialSpec black;
   black.color = {0, 0, 0};
-  black.emission = json.color("radiance");
-  light.material = static_cast<int>(scene.materials.size());
+  black.emission = light.intensity;
+  body.material = static_cast<int>(scene.materials.size());
   scene.materials.push_back(black);
-  scene.objects.push_back(light);
+  scene.objects.push_back(body);
 }
 
 // The same radiance from everywhere, in rows of which each is as good as uniform over its solid angle.
@@ -65,31 +49,52 @@ Image constant_map(Color radiance) {
   return map;
 }
 
-void add_environment(const SceneObject& json, SceneLoader& loader) {
-  Scene& scene = loader.scene;
-  if (scene.environment)
-    json.fail("expected one environment, got a second beside " + scene.environment->pointer);
-  Environment environment;
-  environment.pointer = json.pointer();
-  environment.rotation = json.number("rotation");
-  if (const auto path = json.find("path"))
-    environment.map = loader.radiance_map(*path);
-  else
-    environment.map = constant_map(json.at("radiance").color());
-  scene.environment = std::move(environment);
+// The entry's keys, those that the row of its kind has.
+LightSpec read_light(const SceneObject& json, SceneLoader& loader) {
+  LightSpec light;
+  light.kind = light_rows[json.type()].kind;
+  light.pointer = json.pointer();
+  if (json.knows("position")) light.position = json.vector("position");
+  for (const char* key : {"direction", "normal"})
+    if (json.knows(key)) light.direction = read_direction(json.at(key));
+  if (json.knows("target")) {
+    const Vec3 axis = json.vector("target") - light.position;
+    if (length(axis) < positive_number.low)
+      json.at("target").fail("expected a point other than `position`, got the same");
+    light.direction = normalize(axis);
+  }
+  if (json.knows("angle")) {
+    light.angle = json.number("angle");
+    light.blend = json.number("blend");
+  }
+  if (json.knows("path")) {
+    light.rotation = json.number("rotation");
+    const auto path = json.find("path");
+    light.map = path ? loader.radiance_map(*path) : constant_map(json.at("radiance").color());
+    return light;
+  }
+  for (const char* key : {"intensity", "irradiance", "radiance"})
+    if (json.knows(key)) light.intensity = json.color(key);
+  return light;
 }
 
 }  // namespace
 
 void read_lights(const SceneValue& json, SceneLoader& loader) {
+  std::string background;
   for (const SceneValue& item : json.items()) {
-    const SceneObject light = item.object();
-    if (light.type() < 3)
-      add_delta_light(light, static_cast<Kind>(light.type()), loader.scene);
-    else if (light.type() == 3)
-      add_disk(light, loader.scene);
+    const SceneObject entry = item.object();
+    LightSpec light = read_light(entry, loader);
+    if (has_property(light.kind, BACKGROUND)) {
+      if (!background.empty())
+        entry.fail("expected one " + std::string(row_of(light.kind).text) + ", got a second beside " +
+                   background);
+      background = light.pointer;
+    }
+    if (has_property(light.kind, EMISSIVE))
+      add_body(entry, light, loader.scene);
     else
-      add_environment(light, loader);
+      loader.scene.lights.push_back(std::move(light));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/contact.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/shape_kind.hpp"
 
@@ -95,8 +96,8 @@ class Finder {
   void find_lights() {
     bool any = false;
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-      const DeltaLight& light = scene_.lights[i];
-      if (light.kind == DeltaLight::Kind::directional || !is_lit(light)) continue;
+      const LightSpec& light = scene_.lights[i];
+      if (!shines_from_point(light.kind) || !is_lit(light)) continue;
       const std::string names = holders(light.position, any);
       if (!any) continue;
       result_.holds_light[i] = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/mesh_parts.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/material_kind.hpp"
 #include "scene/object_bounds.hpp"
 #include "scene/object_sides.hpp"
@@ -22,7 +23,7 @@ class LitSidesFinder {
     const Vec3 lens = Vec3{1, 1, 1} * start_of_view(scene.camera);
     add_source(scene.camera.origin - lens, scene.camera.origin + lens);
     for (const auto& light : scene.lights)
-      if (light.kind != DeltaLight::Kind::directional) add_source(light.position, light.position);
+      if (shines_from_point(light.kind)) add_source(light.position, light.position);
     for (const auto& object : scene.objects) {
       corners_.push_back(object_corners(scene, object));
       if (max_component(material(object).emission) > 0) {
@@ -59,10 +60,10 @@ class LitSidesFinder {
 
   int sides_that_may_be_lit(const Object& object) const {
     constexpr int both = front_side | back_side;
-    if (has_motion(scene_) || scene_.environment || max_component(scene_.medium.scattering) > 0) return both;
+    if (has_motion(scene_) || max_component(scene_.medium.scattering) > 0) return both;
     int sides = 0;
     for (const auto& light : scene_.lights)
-      sides |= light.kind == DeltaLight::Kind::directional ? both : side_with(object, light.position);
+      sides |= shines_from_point(light.kind) ? side_with(object, light.position) : both;
     for (const double step : {-1.0, 0.0, 1.0})  // across where rays start, as if it faced the object
       sides |= side_with(object, scene_.camera.origin + step * start_of_view(scene_.camera) *
                                                             normalize(object.transform.inverse().rows[2]));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/integrators.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/object_triangles.hpp"
 
 namespace causticl {
@@ -12,7 +13,12 @@ float emission_of(const Scene& scene, const Object& object) {
       max_component(scene.materials[static_cast<std::size_t>(object.material)].emission));
 }
 
-bool is_lit(const DeltaLight& light) { return static_cast<float>(max_component(light.intensity)) > 0; }
+bool is_lit(const LightSpec& light) {
+  const std::vector<float>& rgba = light.map.rgba;
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (i % 4 != 3 && rgba[i] > 0) return true;
+  return rgba.empty() && static_cast<float>(max_component(light.intensity)) > 0;
+}
 
 bool is_lit(const Scene& scene, const Object& object) {
   if (!(emission_of(scene, object) > 0)) return false;
@@ -24,32 +30,28 @@ bool is_lit(const Scene& scene, const Object& object) {
   return !has_none || !is_made_of_triangles;
 }
 
-bool is_lit(const Environment& environment) {
-  const std::vector<float>& rgba = environment.map.rgba;
-  for (std::size_t i = 0; i < rgba.size(); ++i)
-    if (i % 4 != 3 && rgba[i] > 0) return true;
-  return false;
-}
-
 double indirect_radius(const RendererSpec& renderer) { return renderer.indirect_radius.value_or(1.0); }
 
-bool has_light(const Scene& scene) {
-  return has_visible_light(scene) || std::any_of(scene.lights.begin(), scene.lights.end(),
-                                                 [](const DeltaLight& light) { return is_lit(light); });
+namespace {
+
+/// Whether a light of one of the families or properties gives light.
+bool has_lit(const Scene& scene, unsigned wanted) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const LightSpec& light) {
+    return has_property(light.kind, wanted) && is_lit(light);
+  });
 }
 
+}  // namespace
+
+bool has_light(const Scene& scene) { return has_visible_light(scene) || has_lit(scene, ~0u); }
+
 bool has_visible_light(const Scene& scene) {
-  return (scene.environment && is_lit(*scene.environment)) ||
+  return has_lit(scene, BACKGROUND) ||
          std::any_of(scene.objects.begin(), scene.objects.end(),
                      [&](const Object& object) { return is_lit(scene, object); });
 }
 
-bool has_infinite_light(const Scene& scene) {
-  return (scene.environment && is_lit(*scene.environment)) ||
-         std::any_of(scene.lights.begin(), scene.lights.end(), [](const DeltaLight& light) {
-           return light.kind == DeltaLight::Kind::directional && is_lit(light);
-         });
-}
+bool has_infinite_light(const Scene& scene) { return has_lit(scene, BEYOND_SCENE); }
 
 bool aims_photons(const Scene& scene) {
   return traces_photons(scene.renderer.integrator) &&

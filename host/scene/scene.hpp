@@ -11,6 +11,7 @@
 #include "image/image.hpp"
 #include "mesh/mesh.hpp"
 #include "scene/integrator_table.hpp"
+#include "shared/lights.h"
 #include "shared/materials.h"
 #include "shared/shapes.h"
 
@@ -67,24 +68,22 @@ struct Object {
   bool is_disc_light = false;                 // comes from renderer.light_pos
 };
 
-/// A light that is no surface: no ray meets it by chance.
-struct DeltaLight {
-  enum class Kind { point, spot, directional };
+/// A light of the key `lights`. Its fields are those of its keys in LIGHT_TABLE.
+struct LightSpec {
+#define KIND_OF_LIGHT(x, NAME, number, name, ...) name,
+  enum class Kind : unsigned { LIGHT_TABLE(KIND_OF_LIGHT, ) };
+#undef KIND_OF_LIGHT
   Kind kind = Kind::point;
   std::string pointer;  // JSON pointer, "/lights/0"
-  Vec3 position;        // point, spot
-  Vec3 direction;       // spot: the axis of its cone; directional: of travel; unit
-  Color intensity;      // directional: irradiance of a surface across it
-  double angle = 0;     // spot: of the whole cone, from side to side, in degrees
-  double blend = 0;     // spot: fraction of the half angle over which it falls off
-};
-
-/// Radiance from beyond the scene: a map of latitude and longitude, whose columns go around +y and whose
-/// middle lies towards -z.
-struct Environment {
-  std::string pointer;  // JSON pointer
-  Image map;            // texels finite, not negative; alpha is not used
-  double rotation = 0;  // about +y, in degrees
+  Vec3 position;
+  Vec3 direction;   // unit: spot: the axis of its cone; directional: of travel; surfaces: the side that emits
+  Color intensity;  // directional: irradiance of a surface across it; surfaces: radiance
+  double angle = 0;  // of the whole cone, from side to side, in degrees
+  double blend = 0;  // fraction of the half angle over which it falls off
+  /// Radiance: texels finite, not negative; alpha is not used. Of the environment by latitude and longitude:
+  /// columns go around +y, and the middle lies towards -z.
+  Image map;
+  double rotation = 0;  // of the map about +y, in degrees
 };
 
 struct CameraSpec {
@@ -144,8 +143,7 @@ struct Scene {
   CameraSpec camera;
   MediumSpec medium;
   std::vector<Object> objects;
-  std::vector<DeltaLight> lights;
-  std::optional<Environment> environment;
+  std::vector<LightSpec> lights;  // those that are no objects
   std::vector<MaterialSpec> materials;
   std::vector<TextureSpec> textures;
   std::vector<Image> images;
@@ -155,8 +153,7 @@ struct Scene {
 };
 
 /// Whether the light gives any light, in the floats that the kernels see.
-bool is_lit(const DeltaLight& light);
-bool is_lit(const Environment& environment);
+bool is_lit(const LightSpec& light);
 
 /// Whether the object gives any light: it emits, and has an area.
 bool is_lit(const Scene& scene, const Object& object);
@@ -168,7 +165,7 @@ float emission_of(const Scene& scene, const Object& object);
 /// Whether anything in the scene emits light.
 bool has_light(const Scene& scene);
 
-/// Whether a ray can meet light: of a surface or the environment.
+/// Whether a ray can meet light: of a surface or a background.
 bool has_visible_light(const Scene& scene);
 
 /// Whether light comes from beyond the scene: of a directional light or the environment.

@@ -68,17 +68,18 @@ struct Lights : LitScene {
   explicit Lights(Device& device) {
     scene.materials.resize(1);
     scene.objects.push_back(make_sphere({1, 2, 3}, 2, 0));
-    using Kind = DeltaLight::Kind;
+    using Kind = LightSpec::Kind;
     add(Kind::point, {1, 3, 2}, {1, 2, 3}, 0, 0);
     add(Kind::spot, {-2, 1, 0}, {9, 5, 7}, 100, 0.4);
     add(Kind::spot, {3, 0, 1}, {3e6, 2e6, 1e6}, 0.05, 0);
     add(Kind::spot, {0, 4, -1}, {2, 30, 4}, 30, 1);
     add(Kind::directional, {}, {0.4, 0.3, 0.1}, 0, 0);
-    Environment environment;
+    LightSpec environment;
+    environment.kind = LightSpec::Kind::environment;
     environment.map.width = 64;
     environment.map.height = 32;
     environment.map.rgba.assign(4 * 64 * 32, 0.25f);
-    scene.environment = environment;
+    scene.lights.push_back(environment);
     upload(device);
     for (std::size_t i = 0; i < light_count; ++i) power += powers[i] = power_of(scene.lights[i]);
     // Rows of a map stand for their middles: its integral is that of the midpoint rule.
@@ -87,8 +88,8 @@ struct Lights : LitScene {
     power += powers[sky] = 0.25 * 2 * std::numbers::pi * std::numbers::pi * sines / 32 * square_radius();
   }
 
-  void add(DeltaLight::Kind kind, Vec3 position, Color intensity, double angle, double blend) {
-    DeltaLight light;
+  void add(LightSpec::Kind kind, Vec3 position, Color intensity, double angle, double blend) {
+    LightSpec light;
     light.kind = kind;
     light.position = position;
     light.intensity = intensity;
@@ -103,22 +104,22 @@ struct Lights : LitScene {
     const double radius = 1.0001 * 2 * std::sqrt(3.0) + 1e-6 * 3;
     return radius * radius;
   }
-  static double outer(const DeltaLight& light) { return light.angle * std::numbers::pi / 360; }
+  static double outer(const LightSpec& light) { return light.angle * std::numbers::pi / 360; }
   /// 1 - cos x.
   static double drop(double x) { return 2 * std::sin(x / 2) * std::sin(x / 2); }
 
   /// Fraction of a spot's intensity at an angle to its axis.
-  static double falloff(const DeltaLight& light, double angle) {
+  static double falloff(const LightSpec& light, double angle) {
     const double end = drop(outer(light)), even = drop(outer(light) * (1 - light.blend)), at = drop(angle);
     if (at <= even) return 1;
     if (at >= end) return 0;
     const double t = (end - at) / (end - even);
     return t * t * (3 - 2 * t);
   }
-  static double power_of(const DeltaLight& light) {
+  static double power_of(const LightSpec& light) {
     const double intensity = max_component(light.intensity);
-    if (light.kind == DeltaLight::Kind::point) return 4 * intensity;
-    if (light.kind == DeltaLight::Kind::directional) return square_radius() * intensity;
+    if (light.kind == LightSpec::Kind::point) return 4 * intensity;
+    if (light.kind == LightSpec::Kind::directional) return square_radius() * intensity;
     // The integral of the falloff over 1 - cosine by the midpoint rule.
     double sum = 0;
     constexpr int steps = 4096;
@@ -143,7 +144,7 @@ CheckResult arrivals(CheckContext& context) {
   return run_random_check(
       context, 1e-5, "of the light's greatest",
       [&](InputRandom& random, std::uint64_t index) {
-        const DeltaLight& beam = lights.scene.lights[1 + random.below(3)];
+        const LightSpec& beam = lights.scene.lights[1 + random.below(3)];
         const Frame frame(beam.direction);
         const double angle = 1.2 * Lights::outer(beam) * random.uniform(), around = random.uniform(0, 7);
         const Vec3 in_beam = frame.to_world(
@@ -159,15 +160,15 @@ CheckResult arrivals(CheckContext& context) {
       [&](const Place& in, const Arrival& out) {
         const auto index = static_cast<std::size_t>(out.weight.w);
         if (index >= light_count) return index == sky ? 0.0 : INFINITY + 0.0;
-        const DeltaLight& light = lights.scene.lights[index];
+        const LightSpec& light = lights.scene.lights[index];
         const double probability = lights.powers[index] / lights.power;
         Vec3 direction = -light.direction;
         double expected = 1, distance = INFINITY;
-        if (light.kind != DeltaLight::Kind::directional) {
+        if (light.kind != LightSpec::Kind::directional) {
           const Vec3 to_light = light.position - Vec3{in.position[0], in.position[1], in.position[2]};
           distance = length(to_light);
           direction = to_light / distance;
-          if (light.kind == DeltaLight::Kind::spot) {
+          if (light.kind == LightSpec::Kind::spot) {
             const Vec3 chord = -direction - light.direction;
             const double angle = 2 * std::asin(std::min(1.0, length(chord) / 2)), end = Lights::outer(light);
             expected = Lights::falloff(light, angle);
@@ -176,7 +177,7 @@ CheckResult arrivals(CheckContext& context) {
           }
         }
         double error = std::fabs(length(to_vec3(out.direction) - direction));
-        const double unit = light.kind == DeltaLight::Kind::directional ? 1 : distance * distance;
+        const double unit = light.kind == LightSpec::Kind::directional ? 1 : distance * distance;
         if (std::isfinite(distance))
           error = std::max(error, std::fabs(out.direction.w / distance - 1));
         else if (!std::isinf(out.direction.w))
@@ -207,7 +208,7 @@ CheckResult photons(CheckContext& context) {
         to[light_count + 1].add(index);
         const Vec3 origin = to_vec3(photon.origin), d = to_vec3(photon.direction),
                    flux = to_vec3(photon.flux);
-        if (index == sky || lights.scene.lights[index].kind == DeltaLight::Kind::directional) {
+        if (index == sky || lights.scene.lights[index].kind == LightSpec::Kind::directional) {
           // The disc touches the sphere where the light comes from.
           const Vec3 local = Frame(d).to_local(origin - centre);
           const bool right = std::fabs(local.z + std::sqrt(radius2)) < 1e-5 &&
@@ -218,12 +219,12 @@ CheckResult photons(CheckContext& context) {
                     : bins.count());
           return;
         }
-        const DeltaLight& light = lights.scene.lights[index];
+        const LightSpec& light = lights.scene.lights[index];
         const Vec3 local = Frame(light.direction).to_local(d), chord = d - light.direction;
-        const double end = light.kind == DeltaLight::Kind::spot ? Lights::drop(Lights::outer(light)) : 2,
+        const double end = light.kind == LightSpec::Kind::spot ? Lights::drop(Lights::outer(light)) : 2,
                      drop = dot(chord, chord) / 2;
         double weight = 1;
-        if (light.kind == DeltaLight::Kind::spot) {
+        if (light.kind == LightSpec::Kind::spot) {
           weight = Lights::falloff(light, 2 * std::asin(std::sqrt(drop / 2))) * 2 * end *
                    max_component(light.intensity) / lights.powers[index];
           // The edge of the narrowest cone is a step.

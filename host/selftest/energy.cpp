@@ -161,11 +161,12 @@ CheckResult environment_furnace(CheckContext& context) {
         make_sphere({1.05 * (column - 1), 1.05 * (row - 1), 0}, 0.5, static_cast<int>(i)));
     scene.materials.push_back(materials[i].spec);
   }
-  Environment environment;
+  LightSpec environment;
+  environment.kind = LightSpec::Kind::environment;
   environment.map.width = 64;
   environment.map.height = 32;
   environment.map.rgba.assign(std::size_t{4} * 64 * 32, 1.0f);
-  scene.environment = environment;
+  scene.lights.push_back(environment);
   // A sixth of the picture is diffuse, and what photons bring there, from ball to ball, is a small part of
   // its light.
   return both_are_one(context, std::move(scene), 0.5);

@@ -20,7 +20,7 @@ OUTLINE void draw_direction(const Scene *scene, real4 random, global Drawn *out)
   LightSample light = light_sample(scene, (real3)(0, 0, 0), random);
   bool distant = emitter_choose(scene, random.x, random.w) == scene->emitter_count - 1;
   real pdf;
-  real3 radiance = environment_radiance(scene, light.direction, &pdf);
+  real3 radiance = background_radiance(scene, light.direction, &pdf);
   out->direction = convert_float4((real4)(light.direction, distant ? light.pdf : 0));
   out->weight = convert_float4((real4)(light.weight, 0));
   out->found = convert_float4((real4)(radiance, pdf));
@@ -55,7 +55,8 @@ struct Sky : LitScene {
   explicit Sky(Device& device) {
     scene.objects.push_back(make_sphere({0, 0, 0}, 1, 0));
     scene.materials.resize(1);
-    Environment sky;
+    LightSpec sky;
+    sky.kind = LightSpec::Kind::environment;
     sky.rotation = 77;
     sky.map.width = width;
     sky.map.height = height;
@@ -70,10 +71,9 @@ struct Sky : LitScene {
         weights.push_back(rgb[1] * std::sin(std::numbers::pi * (row + 0.5) / height));
         total += weights.back();
       }
-    scene.environment = sky;
-    DeltaLight point;
+    LightSpec point;
     point.intensity = {0, 0, 50};
-    scene.lights.push_back(point);
+    scene.lights = {sky, point};
     upload(device);
   }
 
@@ -91,7 +91,7 @@ struct Sky : LitScene {
   }
   /// u and v of a direction.
   std::pair<double, double> position(Vec3 d) const {
-    const double turns = turn(d.x, -d.z) + 0.5 + scene.environment->rotation / 360;
+    const double turns = turn(d.x, -d.z) + 0.5 + scene.lights[0].rotation / 360;
     return {turns - std::floor(turns), std::atan2(std::hypot(d.x, d.z), -d.y) / std::numbers::pi};
   }
 
@@ -138,7 +138,7 @@ CheckResult directions(CheckContext& context) {
 /// to some roundings of 1, which is 3e-6 texels, of a slope that is at most the largest texel around.
 CheckResult densities(CheckContext& context) {
   const Sky sky(context.device);
-  const std::vector<float>& rgba = sky.scene.environment->map.rgba;
+  const std::vector<float>& rgba = sky.scene.lights[0].map.rgba;
   const double integral = 2 * std::numbers::pi * std::numbers::pi * sky.total / (Sky::width * Sky::height);
   // The power over pi of the sphere of the scene, sqrt(3) in radius and a little more, and of the point
   // light.

@@ -33,11 +33,12 @@ void add_sphere(Scene& scene, double radius, Vec3 centre, double ior) {
 Scene sky_of_one() {
   Scene scene;
   scene.max_depth = 256;
-  Environment environment;
+  LightSpec environment;
+  environment.kind = LightSpec::Kind::environment;
   environment.map.width = 4;
   environment.map.height = 2;
   environment.map.rgba.assign(std::size_t{4} * 4 * 2, 1.0f);
-  scene.environment = environment;
+  scene.lights.push_back(environment);
   // From above, through the faces that bodies share.
   scene.camera = make_camera({0.4, 8, 4}, {0, 0.3, 0}, 0.7);
   return scene;

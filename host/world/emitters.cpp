@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scene/float4.hpp"
+#include "scene/light_kind.hpp"
 #include "world/environment.hpp"
+#include "world/light_records.hpp"
 
 namespace causticl {
 namespace {
@@ -31,12 +32,6 @@ float4 scene_sphere(const TreeInput& tree) {
   const double largest = max_component({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
   return to_float4(centre, 1.0001 * length(0.5 * (high - low)) + 1e-6 * largest);
 }
-
-/// Where light from beyond the scene has to go.
-struct LitRegion {
-  float4 sphere;    // centre and radius
-  float reach = 1;  // how far the farthest infinite plane is from its centre, in radii, 1 at least
-};
 
 /// The sphere that light from beyond the scene has to cover, all that is bounded in its midst. What infinite
 /// planes are outside of it is far to kernels (cl/lights/horizon.cl), which read it from the records of
@@ -70,52 +65,6 @@ LitRegion lit_region(const Scene& scene, FlatScene& world) {
   return region;
 }
 
-double square(float x) { return static_cast<double>(x) * x; }
-
-Emitter delta_emitter(const DeltaLight& light, const LitRegion& region) {
-  Emitter result{};
-  switch (light.kind) {
-    case DeltaLight::Kind::point:
-      result.type = EMITTER_POINT;
-      result.a = to_float4(light.position);
-      result.radiance = to_float4(light.intensity, 4);
-      break;
-    case DeltaLight::Kind::spot: {
-      // 1 - cos x = 2 sin^2(x / 2), which keeps narrow cones exact.
-      const double half = light.angle / 2 * std::numbers::pi / 180;
-      const double sine = std::sin(half / 2), even_sine = std::sin(half * (1 - light.blend) / 2);
-      result.type = EMITTER_SPOT;
-      result.a = to_float4(light.position);
-      result.b = to_float4(light.direction);
-      result.c = to_float4({2 * sine * sine, 2 * even_sine * even_sine, 0});
-      // The falloff is symmetric about 1/2 in the cosine, so that its border counts half.
-      result.radiance = to_float4(light.intensity, static_cast<double>(result.c.x) + result.c.y);
-      break;
-    }
-    case DeltaLight::Kind::directional:
-      result.type = EMITTER_DIRECTIONAL;
-      result.a = region.sphere;
-      result.b = to_float4(light.direction);
-      result.c.x = region.reach;
-      result.radiance = to_float4(light.intensity, square(region.sphere.w));
-      break;
-  }
-  return result;
-}
-
-Emitter environment_emitter(const Environment& environment, const LitRegion& region) {
-  Emitter result{};
-  const double integral = environment_integral(environment);
-  result.type = EMITTER_ENVIRONMENT;
-  result.a = region.sphere;
-  result.c.x = region.reach;
-  result.b = to_float4({environment.rotation / 360, 0, 0});
-  result.radiance = to_float4({integral, integral, integral}, square(region.sphere.w));
-  result.shape = static_cast<uint>(environment.map.width);
-  result.first_area = static_cast<uint>(environment.map.height);
-  return result;
-}
-
 /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
 /// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
 std::uint64_t assign_numbers(FlatScene& world) {
@@ -140,18 +89,28 @@ std::uint64_t assign_numbers(FlatScene& world) {
 }  // namespace
 
 void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatScene& world) {
-  const bool environment = scene.environment && is_lit(*scene.environment);
-  if (environment || !scene.lights.empty()) {
-    const LitRegion region = lit_region(scene, world);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-      if (!is_lit(scene.lights[i])) continue;
-      world.emitters.push_back(delta_emitter(scene.lights[i], region));
-      world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
-    }
-    if (environment) world.emitters.push_back(environment_emitter(*scene.environment, region));
+  const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
+                               [](const LightSpec& light) { return is_lit(light); });
+  if (!lit) {
+    assign_numbers(world);
+    return;
   }
+  const LitRegion region = lit_region(scene, world);
+  const LightSpec* background = nullptr;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const LightSpec& light = scene.lights[i];
+    if (!is_lit(light)) continue;
+    if (has_property(light.kind, BACKGROUND)) {
+      background = &light;
+      continue;
+    }
+    world.emitters.push_back(light_record(light, region));
+    world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
+  }
+  // The last emitter, as kernels expect.
+  if (background) world.emitters.push_back(light_record(*background, region));
   const std::uint64_t last = assign_numbers(world);
-  if (environment) world.environment = environment_table(*scene.environment, last);
+  if (background) world.environment = environment_table(background->map, last);
 }
 
 }  // namespace causticl

@@ -33,13 +33,13 @@ class TexelWeights {
 
 }  // namespace
 
-double environment_integral(const Environment& environment) {
-  const TexelWeights weight(environment.map);
+double environment_integral(const Image& map) {
+  const TexelWeights weight(map);
   return 2 * std::numbers::pi * std::numbers::pi * weight.sum() / static_cast<double>(weight.texels());
 }
 
-std::vector<EnvironmentTexel> environment_table(const Environment& environment, std::uint64_t numbers) {
-  const TexelWeights weight(environment.map);
+std::vector<EnvironmentTexel> environment_table(const Image& map, std::uint64_t numbers) {
+  const TexelWeights weight(map);
   const double total = weight.sum(), all = static_cast<double>(numbers);
   std::vector<EnvironmentTexel> table(weight.texels());
   double sum = 0;
@@ -51,7 +51,7 @@ std::vector<EnvironmentTexel> environment_table(const Environment& environment, 
       table[i].density = static_cast<float>(static_cast<double>(table[i].cdf - before) / all *
                                             static_cast<double>(table.size()));
     before = table[i].cdf;
-    std::copy_n(environment.map.rgba.data() + 4 * i, 3, table[i].radiance);
+    std::copy_n(map.rgba.data() + 4 * i, 3, table[i].radiance);
   }
   return table;
 }

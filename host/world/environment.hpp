@@ -10,10 +10,10 @@
 namespace causticl {
 
 /// The integral over all directions of the map's largest channel, interpolated as the kernels do.
-double environment_integral(const Environment& environment);
+double environment_integral(const Image& map);
 
 /// One entry a texel: radiance, and how many of `numbers` it owns, in proportion to the largest channel of
 /// its radiance and to the solid angle of its row.
-std::vector<EnvironmentTexel> environment_table(const Environment& environment, std::uint64_t numbers);
+std::vector<EnvironmentTexel> environment_table(const Image& map, std::uint64_t numbers);
 
 }  // namespace causticl

@@ -6,7 +6,7 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "lights/delta_light.cl"
+#include "lights/light.cl"
 kernel void falloff(global const float4 *in, global float *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;
@@ -15,18 +15,21 @@ kernel void falloff(global const float4 *in, global float *out, uint count, glob
 kernel void arrive(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  real3 direction = (real3)(0, 0, 0);
-  real distance = 0;
-  real3 irradiance = delta_light_arrival(emitter, convert_real3(in[i].xyz), &direction, &distance);
-  out[2 * i] = convert_float4((real4)(irradiance, 0));
-  out[2 * i + 1] = convert_float4((real4)(direction, distance));
+  Scene scene;
+  scene.emitters = emitter;
+  LightSample light = light_sample_from(&scene, 0, convert_real3(in[i].xyz), (real4)(0, 0, 0, 0));
+  out[2 * i] = convert_float4((real4)(light.weight, 0));
+  out[2 * i + 1] = convert_float4((real4)(light.direction, light.distance));
 }
 kernel void leave(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  real weight;
-  Ray ray = delta_light_ray(emitter, convert_real2(in[i].xy), &weight);
-  out[i] = convert_float4((real4)(ray.direction, weight));
+  Scene scene;
+  scene.emitters = emitter;
+  scene.geometry.plane_count = 0;
+  real3 flux;
+  Ray ray = photon_emit_from(&scene, 0, (real4)(0, 0, 0, 0), in[i].x, in[i].y, &flux);
+  out[i] = convert_float4((real4)(ray.direction, max_component(flux)));
 }
 )";
 
@@ -48,10 +51,11 @@ const Vec3 axis = normalize(Vec3{1, -2, 0.5});
 /// A spot with these half angles, in radians, at (1, 2, 3).
 Emitter spot(double outer, double even) {
   Emitter emitter{};
-  emitter.type = EMITTER_SPOT;
+  emitter.type = LIGHT_SPOT;
   emitter.a = {1, 2, 3, 0};
   emitter.b = to_float4(axis);
   emitter.c = {static_cast<float>(drop(outer)), static_cast<float>(drop(even)), 0, 0};
+  emitter.probability = 1;
   emitter.radiance = {2, 4, 1, emitter.c.x + emitter.c.y};
   return emitter;
 }
@@ -91,11 +95,12 @@ TEST_CASE("a spot falls off by the cubic step of the cosine") {
 TEST_CASE("light arrives by the inverse square of the distance, and from afar as it is") {
   RandomInputs random(112);
   Emitter point{};
-  point.type = EMITTER_POINT;
+  point.type = LIGHT_POINT;
+  point.probability = 1;
   point.a = {1, 2, 3, 0};
   point.radiance = {2, 4, 1, 4};
   Emitter distant = point;
-  distant.type = EMITTER_DIRECTIONAL;
+  distant.type = LIGHT_DIRECTIONAL;
   distant.b = to_float4(axis);
   for (const Emitter& light : {point, spot(0.8, 0.4), distant}) {
     CAPTURE(light.type);
@@ -108,7 +113,7 @@ TEST_CASE("light arrives by the inverse square of the distance, and from afar as
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Vec3 irradiance = to_vec3(got[i].weight), direction = to_vec3(got[i].direction);
       const double distance = got[i].direction.w;
-      if (light.type == EMITTER_DIRECTIONAL) {
+      if (light.type == LIGHT_DIRECTIONAL) {
         wrong += !(irradiance == Vec3{2, 4, 1} && length(direction + axis) < 1e-6 && std::isinf(distance));
         continue;
       }
@@ -120,7 +125,7 @@ TEST_CASE("light arrives by the inverse square of the distance, and from afar as
         continue;
       }
       double falloff = 1;
-      if (light.type == EMITTER_SPOT)
+      if (light.type == LIGHT_SPOT)
         falloff = expected_falloff(std::acos(std::clamp(-dot(to_light, axis) / std::sqrt(square), -1.0, 1.0)),
                                    0.8, 0.4);
       wrong += !(length(irradiance * square - Vec3{2, 4, 1} * falloff) < 1e-5 &&

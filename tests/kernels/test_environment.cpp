@@ -33,7 +33,7 @@ kernel void draw(global const float4 *in, global float4 *out, uint count, global
   Scene scene;
   scene.environment = environment;
   ulong number = (ulong)(uint)(in[i].x * 16777216) * numbers >> 24;
-  real2 position = environment_sample(&scene, emitter, number, convert_real2(in[i].yz));
+  real2 position = environment_place(&scene, emitter, number, convert_real2(in[i].yz));
   out[i] = convert_float4((real4)(position, environment_lookup(&scene, emitter, position).density, 0));
 }
 kernel void start(global const float4 *in, global float4 *out, uint count, global const Emitter *emitter, float4 to) {
@@ -57,21 +57,21 @@ cl::Program& program() {
 }
 
 /// A map of random texels, a third of them black.
-Environment random_map(RandomInputs& random, int width, int height) {
-  Environment environment;
-  environment.map.width = width;
-  environment.map.height = height;
+Image random_map(RandomInputs& random, int width, int height) {
+  Image map;
+  map.width = width;
+  map.height = height;
   for (int i = 0; i < width * height; ++i) {
     const double level = random.uniform() < 0.3 ? 0 : std::pow(10, random.uniform(-2, 1));
-    for (int c = 0; c < 3; ++c) environment.map.rgba.push_back(static_cast<float>(level * random.uniform()));
-    environment.map.rgba.push_back(1);
+    for (int c = 0; c < 3; ++c) map.rgba.push_back(static_cast<float>(level * random.uniform()));
+    map.rgba.push_back(1);
   }
-  return environment;
+  return map;
 }
 
 cl::Buffer upload_emitter(int width, int height, double turns = 0) {
   Emitter emitter{};
-  emitter.type = EMITTER_ENVIRONMENT;
+  emitter.type = LIGHT_ENVIRONMENT;
   emitter.a = {3, -2, 1, 5};
   emitter.b.x = static_cast<float>(turns);
   emitter.shape = static_cast<uint>(width);
@@ -118,8 +118,8 @@ TEST_CASE("an environment is interpolated around the seam and held beyond the la
   RandomInputs random(102);
   for (const auto& [width, height] : {std::pair{16, 8}, {5, 3}, {2, 1}, {1, 2}, {1, 1}}) {
     CAPTURE(width, height);
-    Environment map = random_map(random, width, height);
-    map.map.rgba[0] = 1;
+    Image map = random_map(random, width, height);
+    map.rgba[0] = 1;
     const auto table = environment_table(map, numbers);
     auto emitter = upload_emitter(width, height), texels = test_device().upload(table, "texels");
     std::vector<float2> in{{0, 0}, {1, 1}, {0, 1}, {0.5f, 0.5f}, {0.9999999f, 0}};
@@ -153,14 +153,14 @@ TEST_CASE("positions are drawn with the density that the lookup gives, and texel
   RandomInputs random(103);
   for (const auto& [width, height] : {std::pair{16, 8}, {5, 3}, {1, 1}}) {
     CAPTURE(width, height);
-    Environment map = random_map(random, width, height);
-    map.map.rgba[0] = 1;
+    Image map = random_map(random, width, height);
+    map.rgba[0] = 1;
     const auto table = environment_table(map, numbers);
     // Fractions of the largest channel times the sine, exact but for the rounding of both ends.
     std::vector<double> weights;
     double total = 0;
     for (int i = 0; i < width * height; ++i) {
-      const float* rgb = &map.map.rgba[4 * static_cast<std::size_t>(i)];
+      const float* rgb = &map.rgba[4 * static_cast<std::size_t>(i)];
       weights.push_back(std::max({rgb[0], rgb[1], rgb[2]}) * std::sin(M_PI * (i / width + 0.5) / height));
       total += weights.back();
     }

@@ -133,13 +133,14 @@ TEST_CASE("a white ball under an even sky of 1 cannot be told from it") {
 }
 
 TEST_CASE("under a sky that is white above and black below a tilted plate sees its part of the sky") {
-  Environment sky;
+  LightSpec sky;
+  sky.kind = LightSpec::Kind::environment;
   sky.map.width = 128;
   sky.map.height = 64;
   for (int i = 0; i < 128 * 64; ++i)
     for (int c = 0; c < 4; ++c) sky.map.rgba.push_back(c == 3 || i >= 128 * 32 ? 1.0f : 0.0f);
   Scene scene = scene_from_text(replaced(lit_floor, "LIGHT", ""));
-  scene.environment = sky;
+  scene.lights = {sky};
   for (const double tilt : {0.0, 60.0, 130.0}) {
     INFO("tilt " << tilt);
     const Transform turn = Transform::rotate(2, tilt * M_PI / 180);
@@ -152,7 +153,8 @@ TEST_CASE("under a sky that is white above and black below a tilted plate sees i
 }
 
 TEST_CASE("an environment lies where its map says, and turns about +y") {
-  Environment sky;
+  LightSpec sky;
+  sky.kind = LightSpec::Kind::environment;
   sky.map.width = 64;
   sky.map.height = 32;
   sky.map.rgba.assign(4 * 64 * 32, 0.0f);
@@ -165,8 +167,8 @@ TEST_CASE("an environment lies where its map says, and turns about +y") {
   scene.camera.right = {};
   scene.camera.up = {};
   const auto seen = [&](Vec3 direction, double rotation) {
-    scene.environment = sky;
-    scene.environment->rotation = rotation;
+    scene.lights = {sky};
+    scene.lights[0].rotation = rotation;
     scene.camera.axis = normalize(direction);
     return render_with(scene, Integrator::pt, 1).picture.rgb[0];
   };

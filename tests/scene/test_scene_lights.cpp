@@ -27,15 +27,15 @@ TEST_CASE("point, spot and directional lights") {
     {"type": "directional", "direction": [0, 0, -2], "irradiance": [7, 8, 9]},
     {"type": "spot", "position": [0, 4, 0], "target": [4, 4, 0], "angle": 10, "intensity": [0, 0, 0]})");
   REQUIRE(scene.lights.size() == 4);
-  CHECK(scene.lights[0].kind == DeltaLight::Kind::point);
+  CHECK(scene.lights[0].kind == LightSpec::Kind::point);
   CHECK(scene.lights[0].pointer == "/lights/0");
   CHECK(scene.lights[0].position == Vec3{1, 2, 3});
   CHECK(scene.lights[0].intensity == Vec3{4, 5, 6});
-  CHECK(scene.lights[1].kind == DeltaLight::Kind::spot);
+  CHECK(scene.lights[1].kind == LightSpec::Kind::spot);
   CHECK(scene.lights[1].direction == Vec3{0, -1, 0});
   CHECK(scene.lights[1].angle == 40);
   CHECK(scene.lights[1].blend == 0.25);
-  CHECK(scene.lights[2].kind == DeltaLight::Kind::directional);
+  CHECK(scene.lights[2].kind == LightSpec::Kind::directional);
   CHECK(scene.lights[2].direction == Vec3{0, 0, -1});
   CHECK(scene.lights[2].intensity == Vec3{7, 8, 9});
   CHECK(scene.lights[3].blend == 0);
@@ -100,18 +100,18 @@ TEST_CASE("a disk among the lights is an object that emits on the side of its no
 TEST_CASE("environments of one radiance and of an image") {
   const SceneFolder folder;
   const Scene low_discrepancy = with_lights(folder, R"({"type": "environment", "radiance": [1, 2, 3]})");
-  REQUIRE(low_discrepancy.environment);
-  CHECK(low_discrepancy.environment->pointer == "/lights/0");
-  CHECK(low_discrepancy.environment->rotation == 0);
-  for (std::size_t i = 0; i < low_discrepancy.environment->map.rgba.size(); i += 4) {
-    REQUIRE(low_discrepancy.environment->map.rgba[i] == 1);
-    REQUIRE(low_discrepancy.environment->map.rgba[i + 2] == 3);
+  REQUIRE(low_discrepancy.lights.size() == 1);
+  CHECK(low_discrepancy.lights[0].pointer == "/lights/0");
+  CHECK(low_discrepancy.lights[0].rotation == 0);
+  for (std::size_t i = 0; i < low_discrepancy.lights[0].map.rgba.size(); i += 4) {
+    REQUIRE(low_discrepancy.lights[0].map.rgba[i] == 1);
+    REQUIRE(low_discrepancy.lights[0].map.rgba[i + 2] == 3);
   }
   const Scene image = with_lights(folder, R"({"type": "environment", "path": "5x4.png", "rotation": 90})");
-  REQUIRE(image.environment);
-  CHECK(image.environment->map.width == 5);
-  CHECK(image.environment->map.height == 4);
-  CHECK(image.environment->rotation == 90);
+  REQUIRE(image.lights.size() == 1);
+  CHECK(image.lights[0].map.width == 5);
+  CHECK(image.lights[0].map.height == 4);
+  CHECK(image.lights[0].rotation == 90);
 }
 
 TEST_CASE("radiance of an image is as bright as it is; texels that are no light are counted and black") {
@@ -124,8 +124,8 @@ TEST_CASE("radiance of an image is as bright as it is; texels that are no light 
   folder.folder.write("sky.exr", encode_exr(picture, {}));
   for (const std::string name : {"sky.pfm", "sky.exr"}) {
     const Scene scene = with_lights(folder, R"({"type": "environment", "path": ")" + name + "\"}");
-    REQUIRE(scene.environment);
-    CHECK(scene.environment->map.rgba ==
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(scene.lights[0].map.rgba ==
           std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 7000, 8000, 9e11f, 1});
     CHECK(notices_of(scene) ==
           "1: /lights/0/path: 3 texels that are not from 0 to 1e12, or no number, are taken as black\n");

@@ -42,7 +42,7 @@ TEST_CASE("a number is a grey for every colour") {
   const Scene distant = folder.objects(lamp, R"(, "lights": [
       {"type": "directional", "direction": [0, -1, 0], "irradiance": 2}, {"type": "environment", "radiance": 0.25}])");
   CHECK(distant.lights[0].intensity == Vec3{2, 2, 2});
-  CHECK(distant.environment->map.rgba[0] == 0.25f);
+  CHECK(distant.lights[1].map.rgba[0] == 0.25f);
   const Scene disc = folder.objects(
       lamp, R"(, "renderer": {"type": "sppm", "light_pos": [0, 5, 0], "light_r": 1, "light_radiance": 4})");
   CHECK(disc.materials.back().emission == Vec3{4, 4, 4});
