@@ -6,28 +6,6 @@ INLINE real emitter_area_pdf(const Scene *scene, real3 radiance, bool two_sided)
   return max_component(radiance) * (two_sided ? 2 : 1) * scene->emitter_density;
 }
 
-// Area-uniform in the curve's own space: which step of the table of cumulative area, then uniform in t within.
-// Returns t and *density, the probability density of t.
-INLINE real bezier_parameter(global const float *table, uint steps, real u, real *density) {
-  uint low = 0, high = steps - 1;
-  while (low < high) {
-    uint middle = (low + high) / 2;
-    if (u < table[middle])
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  real before = low == 0 ? (real)0 : (real)table[low - 1];
-  real pmf = table[low] - before;
-  *density = pmf * steps;
-  return (low + (pmf > 0 ? clamp((u - before) / pmf, (real)0, (real)1) : (real)0.5)) / steps;
-}
-
-INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) {
-  uint step = min((uint)(t * steps), steps - 1);
-  return (table[step] - (step == 0 ? 0 : table[step - 1])) * steps;
-}
-
 // A point on an emitter with its outward unit normal, *error as in Surface and *pdf per area given the emitter.
 INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, real u, real v, real3 *normal,
                            real *error, real *pdf) {
@@ -51,13 +29,8 @@ INLINE real3 emitter_point(const Scene *scene, global const Emitter *emitter, re
   *normal = (real3)(x, y, z);
   real3 point = choose3(sphere, add3(a, scaled3(row[3], *normal)), add3(add3(a, scaled3(dx, b)), scaled3(dy, c)));
   *pdf = 1 / (real)row[15];
-  if (HAS(EFFECT_BEZIER) && type == EMITTER_BEZIER) {
-    global const Shape *shape = scene->geometry.shapes + emitter->shape;
-    real density, area;
-    real t = bezier_parameter(scene->geometry.curves + emitter->first_area, EMITTER_AREA_STEPS, u, &density);
-    bezier_point(shape, scene->geometry.curves, v, t, &point, normal, &area);
-    *pdf = area > 0 ? density / area : 0;
-  }
+  if (HAS(EFFECTS_OF_OWN_POINTS) && type == EMITTER_SHAPE)
+    point = shape_draw_point(scene->geometry.shapes + emitter->shape, scene->geometry.curves, u, v, normal, pdf);
   real3 size = add3(add3(add3(abs3(a), abs3(b)), abs3(c)), abs3(point));
   *error = STORED_GAMMA(8) * (max_component(size) + row[3]);
   return point;
@@ -128,14 +101,7 @@ INLINE real area_light_pdf(const Scene *scene, real3 origin, real3 direction, Hi
         return area_pdf * 4 * PI * radius * radius / (2 * PI * (sine2 / (1 + sqrt(1 - sine2))));
       }
     }
-    if (HAS(EFFECT_BEZIER) && shape->type == SHAPE_BEZIER) {
-      real3 point, normal;
-      real area;
-      bezier_point(shape, scene->geometry.curves, surface->uv.x, surface->uv.y, &point, &normal, &area);
-      global const float *table = scene->geometry.curves + shape->area_table;
-      real total = shape->area;
-      area_pdf *= area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, surface->uv.y) / area : 0;
-    }
+    if (HAS(EFFECTS_OF_OWN_POINTS)) area_pdf *= shape_unevenness(shape, scene->geometry.curves, hit, surface);
   }
   real cosine = fabs(dot3(direction, surface->geometric_normal));
   return cosine > 0 ? area_pdf * hit.t * hit.t / cosine : 0;

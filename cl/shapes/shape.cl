@@ -6,6 +6,11 @@
 //     NAME_surface is to know of the hit; parameters.x < 0 marks a hit that stands for what was not told apart.
 //   void NAME_surface(shape, curves, ray, hit, &surface)
 //     all of Surface but the material, at a hit of the same ray.
+// and, with OWN_POINTS,
+//   real3 NAME_draw_point(shape, curves, u, v, &normal, &pdf)
+//     a point on it that the uniform numbers u and v draw, its outward unit normal, and its density by area.
+//   real NAME_unevenness(shape, curves, hit, surface)
+//     that density at a hit, times Shape.area.
 #include "shared/effects.h"
 #include "shapes/primitives/*.cl"
 
@@ -15,7 +20,7 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   uint type = shape->type;
   real t = INFINITY;
   real2 parameters = (real2)(0);
-#define INTERSECT(x, NAME, number, name, key, effect) \
+#define INTERSECT(x, NAME, number, name, key, effect, points) \
   if (HAS(effect) && type == SHAPE_##NAME) t = name##_intersect(shape, curves, ray, hit->t, &parameters);
   SHAPE_TABLE(INTERSECT, )
 #undef INTERSECT
@@ -41,9 +46,39 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
 
 // Position, normals, uv and material at a hit that shape_closest found on the same ray.
 INLINE void shape_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
-#define SURFACE(x, NAME, number, name, key, effect) \
+#define SURFACE(x, NAME, number, name, key, effect, points) \
   if (HAS(effect) && (HAS_ALONE(effect) || shape->type == SHAPE_##NAME)) name##_surface(shape, curves, ray, hit, surface);
   SHAPE_TABLE(SURFACE, )
 #undef SURFACE
   surface->material = shape->material;
+}
+
+// The effects of shapes whose points their own files draw, where no table may be named: within one.
+enum { OWN_POINT_EFFECTS = EFFECTS_OF_OWN_POINTS };
+
+// These shapes, as cases of one of them.
+#define NO_POINTS_CASE(...)
+#define EMITTER_POINTS_CASE(...)
+#define OWN_POINTS_CASE(NAME, effect, statement) \
+  if (HAS(effect) && ((EFFECTS & OWN_POINT_EFFECTS) == (effect) || shape->type == SHAPE_##NAME)) statement;
+
+// A point on an emitter of EMITTER_SHAPE, which u and v draw; *pdf is its density by area, zero where it is none to use.
+INLINE real3 shape_draw_point(global const Shape *shape, global const float *curves, real u, real v, real3 *normal,
+                              real *pdf) {
+  real3 point = (real3)(0, 0, 0);
+#define DRAW_POINT(x, NAME, number, name, key, effect, points) \
+  points##_CASE(NAME, effect, point = name##_draw_point(shape, curves, u, v, normal, pdf))
+  SHAPE_TABLE(DRAW_POINT, )
+#undef DRAW_POINT
+  return point;
+}
+
+// The density with which shape_draw_point() draws the place of a hit, times Shape.area; 1 on other shapes, whose points are
+// drawn evenly.
+INLINE real shape_unevenness(global const Shape *shape, global const float *curves, Hit hit, const Surface *surface) {
+#define UNEVENNESS(x, NAME, number, name, key, effect, points) \
+  points##_CASE(NAME, effect, if (shape->type == SHAPE_##NAME) return name##_unevenness(shape, curves, hit, surface))
+  SHAPE_TABLE(UNEVENNESS, )
+#undef UNEVENNESS
+  return 1;
 }

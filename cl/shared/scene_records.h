@@ -53,7 +53,7 @@ typedef struct {
   uint degree;         // SHAPE_BEZIER: degree of the curve
   uint area_table;     // emissive SHAPE_BEZIER: first of EMITTER_AREA_STEPS floats in the curve buffer
   float area;          // emissive shapes: world area
-  uint unused[2];
+  float own[2];        // what the file of the shape keeps there
 } Shape;
 CHECK_SIZE(Shape, 144);
 
@@ -118,7 +118,7 @@ CHECK_SIZE(TriangleAttributes, 40);
 #define EMITTER_TRIANGLE 0u
 #define EMITTER_SPHERE 1u
 #define EMITTER_DISK 2u
-#define EMITTER_BEZIER 3u
+#define EMITTER_SHAPE 3u        // any shape that draws points on itself
 
 // Steps in t of the table of cumulative area by which points on a revolved curve are drawn.
 #define EMITTER_AREA_STEPS 64u
@@ -139,8 +139,8 @@ typedef struct {
   float probability;  // the fraction of the numbers that it owns
   uint type;          // EMITTER_TRIANGLE ..., LIGHT_POINT ...
   uint two_sided;
-  uint shape;         // EMITTER_BEZIER: index into shapes; LIGHT_ENVIRONMENT: width of the map
-  uint first_area;    // EMITTER_BEZIER: first float of its area table in the curve buffer; LIGHT_ENVIRONMENT: height
+  uint shape;         // EMITTER_SHAPE: index into shapes; LIGHT_ENVIRONMENT: width of the map
+  uint first_area;    // LIGHT_ENVIRONMENT: height
   uint in_dielectric; // 1 where a dielectric may hold or touch it (EFFECT_NESTED)
 } Emitter;
 CHECK_SIZE(Emitter, 96);

@@ -2,14 +2,19 @@
 // what the host knows in host/shapes/NAME.cpp.
 #pragma once
 
+// How points on a shape are drawn.
+#define NO_POINTS 0u       // not at all: it has no area that could be chosen by
+#define EMITTER_POINTS 1u  // by the batch of cl/lights/area_light.cl, which knows it by its EMITTER_NAME
+#define OWN_POINTS 2u      // by its own file: name_draw_point(), name_unevenness(). Its emitters are EMITTER_SHAPE
+
 // Shapes that are primitives of their own on the device.
 // Columns: SHAPE_NAME is its number in records; that number; its enumerator, and its name in functions and files; its type
-// in scene files; its effect. `ROW(x, ...)` is made of each row.
+// in scene files; its effect; how points on it are drawn where it emits. `ROW(x, ...)` is made of each row.
 #define SHAPE_TABLE(ROW, x) \
-  ROW(x, SPHERE, 0, sphere, "sphere",        EFFECT_SPHERES) \
-  ROW(x, PLANE,  1, plane,  "plane",         EFFECT_PLANES)  \
-  ROW(x, DISK,   2, disk,   "disk",          EFFECT_DISKS)   \
-  ROW(x, BEZIER, 3, bezier, "bezier_rotate", EFFECT_BEZIER)
+  ROW(x, SPHERE, 0, sphere, "sphere",        EFFECT_SPHERES, EMITTER_POINTS) \
+  ROW(x, PLANE,  1, plane,  "plane",         EFFECT_PLANES,  NO_POINTS)      \
+  ROW(x, DISK,   2, disk,   "disk",          EFFECT_DISKS,   EMITTER_POINTS) \
+  ROW(x, BEZIER, 3, bezier, "bezier_rotate", EFFECT_BEZIER,  OWN_POINTS)
 
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define SHAPE_EFFECTS(ROW, x) \
@@ -29,7 +34,11 @@ enum ShapeType : unsigned {
 #else
 enum ShapeType {
 #endif
-#define SHAPE_NUMBER(x, NAME, number, name, type, effect) SHAPE_##NAME = number,
+#define SHAPE_NUMBER(x, NAME, number, ...) SHAPE_##NAME = number,
   SHAPE_TABLE(SHAPE_NUMBER, )
 #undef SHAPE_NUMBER
 };
+
+// The effects of shapes whose points are drawn in that way.
+#define SHAPE_EFFECT_IF(wanted, NAME, number, name, type, effect, points) | ((points) == (wanted) ? (effect) : 0u)
+#define EFFECTS_OF_OWN_POINTS (0u SHAPE_TABLE(SHAPE_EFFECT_IF, OWN_POINTS))

@@ -33,7 +33,7 @@ SceneTable shape_table(Object::Shape shape, const char* description, std::vector
 }
 
 ValueType object_type() {
-#define KEYS_OF_SHAPE(x, NAME, number, name, type, effect) &name##_keys,
+#define KEYS_OF_SHAPE(x, NAME, number, name, type, effect, points) &name##_keys,
 #define KEYS_OF_TRIANGLES(x, name, type) &name##_keys,
   return object("object", {SHAPE_TABLE(KEYS_OF_SHAPE, ) TRIANGLE_SHAPE_TABLE(KEYS_OF_TRIANGLES, )});
 #undef KEYS_OF_SHAPE

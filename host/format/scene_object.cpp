@@ -10,7 +10,7 @@ namespace {
 /// By the function of its shape.
 void read_own_keys(const SceneObject& json, Object& object, SceneLoader& loader) {
   switch (object.shape) {
-#define READ_SHAPE(x, NAME, number, name, type, effect) READ(name)
+#define READ_SHAPE(x, NAME, number, name, type, effect, points) READ(name)
 #define READ_TRIANGLES(x, name, type) READ(name)
 #define READ(name)          \
   case Object::Shape::name: \

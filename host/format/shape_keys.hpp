@@ -15,7 +15,7 @@ SceneTable shape_table(Object::Shape shape, const char* description, std::vector
 #define CAUSTICL_DECLARE_KEYS(name) \
   const SceneTable& name##_keys();  \
   void read_##name(const SceneObject& json, Object& object, SceneLoader& loader);
-#define CAUSTICL_DECLARE_SHAPE_KEYS(x, NAME, number, name, type, effect) CAUSTICL_DECLARE_KEYS(name)
+#define CAUSTICL_DECLARE_SHAPE_KEYS(x, NAME, number, name, type, effect, points) CAUSTICL_DECLARE_KEYS(name)
 #define CAUSTICL_DECLARE_TRIANGLES_KEYS(x, name, type) CAUSTICL_DECLARE_KEYS(name)
 SHAPE_TABLE(CAUSTICL_DECLARE_SHAPE_KEYS, )
 TRIANGLE_SHAPE_TABLE(CAUSTICL_DECLARE_TRIANGLES_KEYS, )

@@ -50,7 +50,7 @@ struct MaterialSpec {
 };
 
 struct Object {
-#define SHAPE_OF_ROW(x, NAME, number, name, type, effect) name,
+#define SHAPE_OF_ROW(x, NAME, number, name, type, effect, points) name,
 #define TRIANGLES_OF_ROW(x, name, type) name,
   enum class Shape { SHAPE_TABLE(SHAPE_OF_ROW, ) TRIANGLE_SHAPE_TABLE(TRIANGLES_OF_ROW, ) };
 #undef SHAPE_OF_ROW
@@ -64,6 +64,7 @@ struct Object {
   int mesh = -1;        // index into Scene::meshes
   bool smooth = true;   // mesh: use the file's vertex normals, or averaged ones where it has none
   std::vector<std::array<double, 2>> points;  // bezier: control points (radius, height)
+  std::array<double, 2> own{};                // what the file of any other shape keeps of its keys
   Vec3 motion;                                // what it moves by in a unit of time, from time 0
   bool is_disc_light = false;                 // comes from renderer.light_pos
 };

@@ -14,7 +14,7 @@ struct Row {
 
 /// In the order of Object::Shape.
 constexpr Row rows[] = {
-#define CAUSTICL_ROW(x, NAME, number, name, type, effect) {type, effect, name##_shape, false},
+#define CAUSTICL_ROW(x, NAME, number, name, type, effect, points) {type, effect, name##_shape, false},
 #define CAUSTICL_TRIANGLES_ROW(x, name, type) {type, EFFECT_TRIANGLES, name##_shape, true},
     SHAPE_TABLE(CAUSTICL_ROW, ) TRIANGLE_SHAPE_TABLE(CAUSTICL_TRIANGLES_ROW, )
 #undef CAUSTICL_ROW
@@ -29,8 +29,8 @@ const ShapeKind& kind_of(Object::Shape shape) { return row_of(shape).kind(); }
 
 const ShapeKind& kind_of_record(const Shape& shape) {
   switch (shape.type) {
-#define CAUSTICL_CASE(x, NAME, number, name, type, effect) \
-  case SHAPE_##NAME:                                       \
+#define CAUSTICL_CASE(x, NAME, number, name, type, effect, points) \
+  case SHAPE_##NAME:                                               \
     return name##_shape();
     SHAPE_TABLE(CAUSTICL_CASE, )
 #undef CAUSTICL_CASE

@@ -61,7 +61,7 @@ class ShapeKind {
   virtual bool wall(const Shape&, ShapeWall&) const { return false; }
 };
 
-#define CAUSTICL_DECLARE_SHAPE(x, NAME, number, name, type, effect) const ShapeKind& name##_shape();
+#define CAUSTICL_DECLARE_SHAPE(x, NAME, number, name, type, effect, points) const ShapeKind& name##_shape();
 #define CAUSTICL_DECLARE_TRIANGLES(x, name, type) const ShapeKind& name##_shape();
 SHAPE_TABLE(CAUSTICL_DECLARE_SHAPE, )
 TRIANGLE_SHAPE_TABLE(CAUSTICL_DECLARE_TRIANGLES, )

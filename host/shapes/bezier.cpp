@@ -101,7 +101,7 @@ class Bezier : public ShapeKind {
       result.bounds.add(
           transform.point({i & 1 ? local.high.x : local.low.x, i & 2 ? local.high.y : local.low.y,
                            i & 4 ? local.high.z : local.low.z}));
-    result.emitter.type = EMITTER_BEZIER;
+    result.emitter.type = EMITTER_SHAPE;
     if (!emits) return result;
     const auto table = curve_area_table(points, EMITTER_AREA_STEPS);
     // Past the number of steps and the area.

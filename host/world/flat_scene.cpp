@@ -130,7 +130,6 @@ class SceneFlattener {
     if (!primitive.bounds.empty()) world_.tree.shapes.push_back({rounded_outward(primitive.bounds), index});
     if (primitive.area > 0 && emissive(object)) {
       Emitter light = emitter(object, primitive.emitter, primitive.area);
-      light.first_area = shape.area_table;
       light.shape = index;
       world_.emitters.push_back(light);
     }

@@ -5,8 +5,9 @@
 // into spans, the path at its closest approach to the axis; what is then monotone is met by subdivision (see
 // bezier_span.cl). No root can be skipped, nothing is divided by a component of the ray's direction that may
 // vanish, and horizontal rays, rays along the axis and tangent rays are no special cases.
-#include "shapes/bezier_span.cl"
 #include "shared/effects.h"
+#include "shapes/affine_error.cl"
+#include "shapes/bezier_span.cl"
 #include "shapes/ray.cl"
 
 // The ray in unit space with a direction of unit length, its origin moved forward to near the curve. With
@@ -108,18 +109,7 @@ INLINE void bezier_surface(global const Shape *shape, global const float *curves
   real3 p = (real3)(profile.x * scale * radial.x, profile.y * scale + curve[2], profile.x * scale * radial.y);
   surface->position = transform_point(shape->to_world, p);
 
-  // What a spawned ray may be off by when it comes back to local space, brought to the world. The position is by
-  // to_world and the intersection by to_local.
-  global const float4 *in = shape->to_local, *out = shape->to_world;
-  real3 world = fabs(surface->position);
-  real3 local_error = (real3)(dot(fabs(convert_real3(in[0].xyz)), world) + fabs(in[0].w),
-                              dot(fabs(convert_real3(in[1].xyz)), world) + fabs(in[1].w),
-                              dot(fabs(convert_real3(in[2].xyz)), world) + fabs(in[2].w)) * STORED_GAMMA(8);
-  local_error += BEZIER_ERROR * scale + STORED_GAMMA(2) * fabs(curve[2]);
-  surface->error =
-      max_component((real3)(dot(fabs(convert_real3(out[0].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[0].w),
-                            dot(fabs(convert_real3(out[1].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[1].w),
-                            dot(fabs(convert_real3(out[2].xyz)), local_error) + STORED_GAMMA(4) * fabs(out[2].w)));
+  surface->error = affine_error(shape, surface->position, BEZIER_ERROR * scale + STORED_GAMMA(2) * fabs(curve[2]));
 
   real2 n = bezier_profile_normal(curve, span, w, profile.zw);
   surface->geometric_normal = surface->shading_normal =
@@ -127,4 +117,45 @@ INLINE void bezier_surface(global const Shape *shape, global const float *curves
   real angle = atan2(radial.y, radial.x) * (INV_PI * (real)0.5);
   angle = angle < 0 ? angle + 1 : angle;
   surface->uv = (real2)(angle < 1 ? angle : (real)0, mix((real)span[16], (real)span[17], (w + 1) * (real)0.5));
+}
+
+// Area-uniform in the curve's own space: which step of the table of cumulative area, then uniform in t within.
+// Returns t and *density, the probability density of t.
+INLINE real bezier_parameter(global const float *table, uint steps, real u, real *density) {
+  uint low = 0, high = steps - 1;
+  while (low < high) {
+    uint middle = (low + high) / 2;
+    if (u < table[middle])
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  real before = low == 0 ? (real)0 : (real)table[low - 1];
+  real pmf = table[low] - before;
+  *density = pmf * steps;
+  return (low + (pmf > 0 ? clamp((u - before) / pmf, (real)0, (real)1) : (real)0.5)) / steps;
+}
+
+INLINE real bezier_parameter_pdf(global const float *table, uint steps, real t) {
+  uint step = min((uint)(t * steps), steps - 1);
+  return (table[step] - (step == 0 ? 0 : table[step - 1])) * steps;
+}
+
+// Even by area in the curve's own space: v draws the angle, u the curve parameter.
+INLINE real3 bezier_draw_point(global const Shape *shape, global const float *curves, real u, real v, real3 *normal,
+                               real *pdf) {
+  real density, area;
+  real t = bezier_parameter(curves + shape->area_table, EMITTER_AREA_STEPS, u, &density);
+  real3 point;
+  bezier_point(shape, curves, v, t, &point, normal, &area);
+  *pdf = area > 0 ? density / area : 0;
+  return point;
+}
+
+INLINE real bezier_unevenness(global const Shape *shape, global const float *curves, Hit hit, const Surface *surface) {
+  real3 point, normal;
+  real area, total = shape->area;
+  bezier_point(shape, curves, surface->uv.x, surface->uv.y, &point, &normal, &area);
+  global const float *table = curves + shape->area_table;
+  return area > 0 ? total * bezier_parameter_pdf(table, EMITTER_AREA_STEPS, surface->uv.y) / area : 0;
 }
