@@ -48,22 +48,13 @@ INLINE LightSample area_light_sample(const Scene *scene, global const Emitter *e
   real x, y, z, distance, pdf, margin;  // scalars alone leave the branches: see vector.cl
   bool edge_on = false;
   if (!outside) {
+    LightPoint point;
     real3 normal;
-    real error, area_pdf;
-    real3 point = emitter_point(scene, emitter, random.y, random.z, &normal, &error, &area_pdf);
-    real3 to_light = sub3(point, position);
-    real distance2 = dot3(to_light, to_light), length = sqrt(distance2);
-    real3 towards = choose3(distance2 > 0, quotient3(to_light, length), (real3)(0, 0, 1));
-    x = towards.x, y = towards.y, z = towards.z, distance = length;
-    real cosine = -dot3(towards, normal);
-    cosine = emitter->two_sided != 0 ? fabs(cosine) : cosine;
-    // A ray to a light that is seen edge-on stops so short of it that a wall before the light may be missed. That light is
-    // less than a millionth of what the light sends elsewhere, and is left out.
-    edge_on = cosine < (real)1e-3f && 4 * error > (real)0.01f * distance * cosine;
-    bool lit = distance2 > 0 && area_pdf > 0 && cosine > 0;
-    pdf = lit ? probability * area_pdf * distance2 / cosine : 0;
-    // An error of the surface's place moves the hit by 1 / cosine times as much.
-    margin = (real)1e-5f * distance + fmin(4 * error / cosine, (real)0.5f * distance);
+    point.position = emitter_point(scene, emitter, random.y, random.z, &normal, &point.error, &point.area_pdf);
+    point.normal = normal;
+    LightSample flat = light_from_point(emitter, position, point, &edge_on);
+    x = flat.direction.x, y = flat.direction.y, z = flat.direction.z;
+    distance = flat.distance, pdf = flat.pdf, margin = flat.margin;
   } else {
     real sine2 = radius * radius / centre_distance2;
     real one_minus_cos = sine2 / (1 + sqrt(1 - sine2));

@@ -60,16 +60,9 @@ INLINE real tent_sample(real u) { return u < (real)0.5 ? sqrt(2 * u) - 1 : 1 - s
 // The point of the map that `number`, of those that the environment owns, and u choose.
 INLINE real2 environment_place(const Scene *scene, global const Emitter *emitter, ulong number, real2 u) {
   uint width = emitter->shape, height = emitter->first_area;
-  uint low = 0, high = width * height - 1;
-  while (low < high) {
-    uint middle = (low + high) / 2;
-    if (number < scene->environment[middle].cdf)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  real x = (low % width + (real)0.5 + tent_sample(u.x)) / width;
-  real y = (low / width + (real)0.5 + tent_sample(u.y)) / height;
+  uint texel = map_texel(scene->environment, width * height, number);
+  real x = (texel % width + (real)0.5 + tent_sample(u.x)) / width;
+  real y = (texel / width + (real)0.5 + tent_sample(u.y)) / height;
   // What the tents of the last rows lose beyond the poles comes back on this side.
   y = fabs(y);
   return (real2)(x - floor(x), y > 1 ? 2 - y : y);

@@ -64,7 +64,7 @@ INLINE bool visible_in_medium(const Scene *scene, CameraPath *path, VisiblePath 
 // Adds the emission of the surface where photons do not bring it, weighted against light sampling.
 INLINE void visible_emission(const Scene *scene, CameraPath *path, const VisiblePath *visible, Hit hit,
                              const Surface *surface, global const Material *material) {
-  real3 emission = emission_at(material, surface, path->ray.direction);
+  real3 emission = surface_emission(scene, material, surface, path->ray.direction);
   if (HAS(EFFECT_ROUGH) && path->bsdf_pdf > 0 && max_component(emission) > 0)
     emission *= emission_weight(scene, path->ray, hit, surface, material, path->bsdf_pdf);
   if (!path->counted && !visible->beyond) radiance_add(&path->radiance, path->prefix, path->throughput * emission);

@@ -54,7 +54,7 @@ INLINE bool path_in_medium(const Scene *scene, CameraPath *path, const PathSampl
 // Adds the emission of the surface, weighted against light sampling.
 INLINE void path_emission(const Scene *scene, CameraPath *path, Hit hit, const Surface *surface,
                           global const Material *material) {
-  real3 emission = emission_at(material, surface, path->ray.direction);
+  real3 emission = surface_emission(scene, material, surface, path->ray.direction);
   if (!(max_component(emission) > 0) || path->counted) return;
   real weight = 1;
   if (path->bsdf_pdf > 0) weight = emission_weight(scene, path->ray, hit, surface, material, path->bsdf_pdf);

@@ -124,7 +124,10 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
   geometry_surface_soa(&scene->geometry, ray, hit, &surface);
   global const Material *material = scene->materials + surface.material;
   real3 throughput = (real3)(r->throughput[0][i], r->throughput[1][i], r->throughput[2][i]);
-  real3 emission = mul3(throughput, emission_at(material, &surface, ray.direction));
+  // surface_emission() in its parts: as a whole PoCL does not vectorise it.
+  real3 emission = emission_at(material, &surface, ray.direction);
+  if (HAS(EFFECTS_OF_LIGHTS(SURFACE))) emission = own_emission(scene, material, &surface, emission);
+  emission = mul3(throughput, emission);
   bool counted = r->counted[i] != 0;
   r->radiance[0][i] += counted ? 0 : emission.x;
   r->radiance[1][i] += counted ? 0 : emission.y;

@@ -8,10 +8,13 @@
 //   name_emission(), name_pdf()  the same of a ray that meets the light's body
 #define DELTA 1u       // no ray meets it by chance: name_sample(), name_emit()
 #define BACKGROUND 2u  // around the scene, one at most: name_sample(), name_emit(), name_radiance()
+#define SURFACE 4u     // an object has its radiance: name_sample(), name_emit(), name_emission(), name_pdf()
 #define EMISSIVE 8u    // another way to write an object whose material emits: no functions, see area_light.cl
 
 // What else the renderer asks about a light.
 #define BEYOND_SCENE 16u  // it has no place: its photons start around the scene
+#define ON_DISK 32u       // the object that it is or lies on
+#define ON_RECTANGLE 64u
 
 // Keys of scene files: host/format/keys_light.cpp.
 #define POSITION_KEY 1u
@@ -24,6 +27,10 @@
 #define RADIUS_KEY 128u
 #define RADIANCE_KEY 256u
 #define MAP_KEY 512u
+#define IMAGE_KEY 1024u
+#define UP_KEY 2048u
+#define SIZE_KEY 4096u
+#define TWO_SIDED_KEY 8192u
 
 // Columns: LIGHT_NAME is its number in records; that number, 16 to 31, since those below are of surfaces; its name in
 // scene files and of its file, enumerator and functions; its effect, 0u where those of its body suffice; family; what else;
@@ -36,9 +43,12 @@
       "spot light", "light that shines from a point into a cone") \
   ROW(x, DIRECTIONAL, 18, directional, EFFECT_DELTA_LIGHTS, DELTA,      BEYOND_SCENE, \
       DIRECTION_KEY | IRRADIANCE_KEY, "directional light", "light from infinitely far, as the sun's") \
-  ROW(x, DISK,        19, disk,        0u,                  EMISSIVE,   0u,           \
+  ROW(x, DISK,        19, disk,        0u,                  EMISSIVE,   ON_DISK,      \
       POSITION_KEY | NORMAL_KEY | RADIUS_KEY | RADIANCE_KEY, \
       "disk light", "black disk that emits; the camera sees it") \
+  ROW(x, RECTANGLE,   21, rectangle,   0u,                  EMISSIVE,   ON_RECTANGLE, \
+      POSITION_KEY | NORMAL_KEY | UP_KEY | SIZE_KEY | RADIANCE_KEY | TWO_SIDED_KEY, \
+      "rectangle light", "black rectangle that emits; the camera sees it") \
   ROW(x, ENVIRONMENT, 20, environment, EFFECT_ENVIRONMENT,  BACKGROUND, BEYOND_SCENE, \
       MAP_KEY, "environment", "light from all directions; one at most")
 

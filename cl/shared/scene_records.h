@@ -18,7 +18,7 @@ CHECK_SIZE(Camera, 96);
 
 typedef struct {
   float4 color;        // reflectance; w: index of refraction inside / outside
-  float4 emission;     // emitted radiance
+  float4 emission;     // emitted radiance; w: which emitter of the family SURFACE has it, counted from the last; 0 for none
   float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside
   float4 absorption;   // glass: per unit length inside; w: Cauchy's B in um^2 / index outside, 0 without dispersion
   uint kind;           // MATERIAL_DIFFUSE ...
@@ -132,23 +132,26 @@ CHECK_SIZE(TriangleAttributes, 40);
 typedef struct {
   // triangle: vertex, two edges; sphere: centre and radius; disk: centre, two half axes; point: place; spot: place,
   // axis, (1 - cosine of the half angle of the cone, of its even part); directional: sphere around the scene, direction;
-  // environment: sphere around the scene, (by how much of a turn the map is turned)
+  // environment: sphere around the scene, (by how much of a turn the map is turned); those of the family SURFACE: corner,
+  // two edges with width and height of the map
   float4 a, b, c;
-  float4 radiance;    // point, spot: intensity; directional: irradiance; environment: integral over all directions
+  float4 radiance;    // point, spot: intensity; directional: irradiance; environment: integral over all directions;
+                      // SURFACE: mean of the texels' largest channels, thrice
   ulong cdf;          // how many numbers this emitter and all before it own; the last one's are all
   float probability;  // the fraction of the numbers that it owns
   uint type;          // EMITTER_TRIANGLE ..., LIGHT_POINT ...
   uint two_sided;
-  uint shape;         // EMITTER_SHAPE: index into shapes; LIGHT_ENVIRONMENT: width of the map
+  uint shape;         // EMITTER_SHAPE: index into shapes; LIGHT_ENVIRONMENT: width of the map; SURFACE: its first texel
   uint first_area;    // LIGHT_ENVIRONMENT: height
   uint in_dielectric; // 1 where a dielectric may hold or touch it (EFFECT_NESTED)
 } Emitter;
 CHECK_SIZE(Emitter, 96);
 
-// A texel of the environment's map of latitude and longitude, rows from the bottom (straight down) to the top.
+// A texel of an emitter's map, rows from the bottom to the top: of latitude and longitude for the environment, whose map is
+// the first.
 typedef struct {
   float radiance[3];
-  float density;      // the fraction of the environment's numbers that it owns, times the number of texels
+  float density;      // the fraction of the emitter's numbers that it owns, times the number of texels
   ulong cdf;          // how many of these numbers this texel and all before it own
 } EnvironmentTexel;
 CHECK_SIZE(EnvironmentTexel, 24);

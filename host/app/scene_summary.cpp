@@ -122,6 +122,7 @@ std::string light_line(const LightSpec& light) {
   if ((row.keys & INTENSITY_KEY) != 0) text << ", intensity " << triple(light.intensity);
   if ((row.keys & IRRADIANCE_KEY) != 0) text << ", irradiance " << triple(light.intensity);
   if (light.map.rgba.empty()) return text.str();
+  if (light.object >= 0) text << ",";
   if (!light.map.file.empty()) text << " " << printable_line(light.map.file) << ",";
   text << " " << light.map.width << " x " << light.map.height << " texels";
   return text.str();
@@ -131,7 +132,7 @@ void print_emitters(std::ostream& text, const Scene& scene) {
   std::vector<std::string> lines;
   for (const auto& object : scene.objects) {
     const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
-    if (!is_lit(scene, object)) continue;
+    if (!is_lit(scene, object) || material.light >= 0) continue;
     lines.push_back(object.pointer + ": " + (object.is_disc_light ? "disc light" : name_of(object.shape)) +
                     ", radiance " + triple(material.emission) + (material.two_sided ? ", both sides" : ""));
   }

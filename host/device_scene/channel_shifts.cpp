@@ -41,8 +41,10 @@ void add_map(std::vector<LightChannels>& lights, const LightSpec& map) {
 
 std::vector<LightChannels> lights_of(const Scene& scene) {
   std::vector<LightChannels> lights;
-  for (const auto& object : scene.objects)
-    add_light(lights, object.pointer, scene.materials[static_cast<std::size_t>(object.material)].emission);
+  for (const auto& object : scene.objects) {
+    const MaterialSpec& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (material.light < 0) add_light(lights, object.pointer, material.emission);
+  }
   for (const auto& light : scene.lights) {
     if (light.map.rgba.empty())
       add_light(lights, light.pointer, light.intensity);

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "device_scene/material_record.hpp"
 #include "scene/float4.hpp"
+#include "world/emitters.hpp"
 #include "world/flat_scene.hpp"
 
 namespace causticl {
@@ -108,7 +109,10 @@ DeviceScene update_device_scene(const Scene& scene, Device& device, unsigned thr
   out.dielectrics = find_dielectrics(scene);
   place_flat_scene(scene, scene.camera.shutter[0], device, out);
   std::vector<Material> materials;
-  for (const auto& spec : scene.materials) materials.push_back(material_record(spec, scene.outside_ior));
+  for (const auto& spec : scene.materials) {
+    materials.push_back(material_record(spec, scene.outside_ior));
+    if (spec.light >= 0) materials.back().emission.w = static_cast<float>(emitters_from(scene, spec.light));
+  }
   // Behind those of the scene one for each body, in the order in which they fill what several hold.
   for (std::size_t i = 0; i < out.dielectrics.bodies.size(); ++i) {
     const Object& body = scene.objects[static_cast<std::size_t>(out.dielectrics.bodies[i])];

@@ -11,31 +11,77 @@ Vec3 read_direction(const SceneValue& json) {
   return normalize(direction);
 }
 
-// The frame about `position` whose +z is the unit vector `direction`.
-Transform facing(Vec3 position, Vec3 direction) {
-  const Vec3 z = direction, side = std::fabs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 x = normalize(cross(side, z)), y = cross(z, x);
+// The frame whose +z is the unit vector `direction` and whose +y lies as near as it can to `up`.
+Transform facing(Vec3 direction, Vec3 up) {
+  const Vec3 x = normalize(cross(up, direction)), y = cross(direction, x);
   Transform transform;
-  for (int axis = 0; axis < 3; ++axis) transform.rows[axis] = {x[axis], y[axis], z[axis]};
-  transform.translation = position;
+  for (int axis = 0; axis < 3; ++axis) transform.rows[axis] = {x[axis], y[axis], direction[axis]};
   return transform;
 }
 
+Vec3 read_up(const SceneObject& json, Vec3 direction) {
+  constexpr double parallel = 1e-6;
+  if (const auto up = json.find("up")) {
+    const Vec3 given = read_direction(*up);
+    if (length(cross(given, direction)) < parallel)
+      up->fail("expected a direction across `normal`, got one along it");
+    return given;
+  }
+  return length(cross(Vec3{0, 1, 0}, direction)) < parallel ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
+}
+
 // A black surface as others: it is seen, and emits on the side of its normal.
-void add_body(const SceneObject& json, const LightSpec& light, Scene& scene) {
+void add_body(const SceneObject& json, LightSpec light, SceneLoader& loader) {
+  Scene& scene = loader.scene;
   Object body;
-  body.shape = Object::Shape::disk;
   body.pointer = light.pointer;
-  body.is_disc_light = true;
-  body.radius = json.number("radius");
-  body.transform = facing(light.position, light.direction);
+  body.material = static_cast<int>(scene.materials.size());
+  if (has_property(light.kind, ON_DISK)) {
+    body.shape = Object::Shape::disk;
+    body.is_disc_light = true;
+    body.radius = json.number("radius");
+    const Vec3 n = light.direction;
+    body.transform = facing(n, std::fabs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  } else {
+    body.shape = Object::Shape::rectangle;
+    const auto size = json.at("size").items();
+    body.transform = Transform::scale({size[0].number(), size[1].number(), 1})
+                         .followed_by(facing(light.direction, read_up(json, light.direction)));
+  }
+  body.transform.translation = light.position;
 
   MaterialSpec black;
   black.color = {0, 0, 0};
   black.emission = light.intensity;
-  body.material = static_cast<int>(scene.materials.size());
+  black.two_sided = json.knows("two_sided") && json.boolean("two_sided");
+  if (!light.map.rgba.empty()) {
+    light.object = static_cast<int>(scene.objects.size());
+    black.light = static_cast<int>(scene.lights.size());
+    scene.lights.push_back(std::move(light));
+  }
   scene.materials.push_back(black);
   scene.objects.push_back(body);
+}
+
+// An image as radiance, as bright as it is times its `scale`. The light's intensity becomes the mean.
+void read_radiance_image(const SceneObject& json, LightSpec& light, SceneLoader& loader) {
+  light.map = loader.radiance_map(json.at("path"));
+  const Color scale = json.color("scale");
+  std::vector<float>& rgba = light.map.rgba;
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t value = i + static_cast<std::size_t>(c);
+      rgba[value] = static_cast<float>(scale[c] * rgba[value]);
+      light.intensity[c] += 4.0 * rgba[value] / static_cast<double>(rgba.size());
+    }
+}
+
+void read_radiance(const SceneValue& json, LightSpec& light, SceneLoader& loader) {
+  const SceneValue image = json.alternative(1);
+  if (image.mentions("type"))
+    read_radiance_image(image.object(), light, loader);
+  else
+    light.intensity = json.alternative(0).color();
 }
 
 // The same radiance from everywhere, in rows of which each is as good as uniform over its solid angle.
@@ -73,7 +119,10 @@ LightSpec read_light(const SceneObject& json, SceneLoader& loader) {
     light.map = path ? loader.radiance_map(*path) : constant_map(json.at("radiance").color());
     return light;
   }
-  for (const char* key : {"intensity", "irradiance", "radiance"})
+  const unsigned keys = row_of(light.kind).keys;
+  if ((keys & IMAGE_KEY) != 0) read_radiance(json.at("radiance"), light, loader);
+  if ((keys & RADIANCE_KEY) != 0) light.intensity = json.color("radiance");
+  for (const char* key : {"intensity", "irradiance"})
     if (json.knows(key)) light.intensity = json.color(key);
   return light;
 }
@@ -91,8 +140,8 @@ void read_lights(const SceneValue& json, SceneLoader& loader) {
                    background);
       background = light.pointer;
     }
-    if (has_property(light.kind, EMISSIVE))
-      add_body(entry, light, loader.scene);
+    if (has_property(light.kind, SURFACE | EMISSIVE))
+      add_body(entry, std::move(light), loader);
     else
       loader.scene.lights.push_back(std::move(light));
   }

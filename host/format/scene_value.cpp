@@ -112,7 +112,7 @@ std::vector<std::pair<std::string, SceneValue>> SceneValue::members() const {
 SceneObject SceneValue::object() const {
   const auto& tables = of(Kind::object).tables;
   if (!is(JsonValue::Kind::object)) fail_expected("an object");
-  if (tables.size() == 1) return {json_, tables[0]()};
+  if (tables.size() == 1 && tables[0]().type.empty()) return {json_, tables[0]()};
   std::vector<std::string> words;
   words.reserve(tables.size());
   for (const TableFunction table : tables) words.push_back(table().type);

@@ -51,7 +51,7 @@ class SceneValue : public SceneNode {
   /// Of a map: names and values, in the order of the file.
   std::vector<std::pair<std::string, SceneValue>> members() const;
 
-  /// The object: of the only table, or of the one that its key "type" names.
+  /// The object: of the only table where that has no type, else of the one that its key "type" names.
   SceneObject object() const;
   /// The object, of this one of several tables that have no "type".
   SceneObject object(const SceneTable& form) const;

@@ -62,8 +62,10 @@ class LitSidesFinder {
     constexpr int both = front_side | back_side;
     if (has_motion(scene_) || max_component(scene_.medium.scattering) > 0) return both;
     int sides = 0;
-    for (const auto& light : scene_.lights)
-      sides |= shines_from_point(light.kind) ? side_with(object, light.position) : both;
+    for (const auto& light : scene_.lights) {
+      if (has_property(light.kind, BEYOND_SCENE)) return both;
+      if (shines_from_point(light.kind)) sides |= side_with(object, light.position);
+    }
     for (const double step : {-1.0, 0.0, 1.0})  // across where rays start, as if it faced the object
       sides |= side_with(object, scene_.camera.origin + step * start_of_view(scene_.camera) *
                                                             normalize(object.transform.inverse().rows[2]));

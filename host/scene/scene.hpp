@@ -41,6 +41,7 @@ struct MaterialSpec {
   bool alpha_diffuse = false;  // base format: texels with alpha > 0 are diffuse whatever `kind` says
   Color emission;              // radiance
   bool two_sided = false;      // emits on both sides
+  int light = -1;              // index into Scene::lights: the one that lies on it, whose mean `emission` is
   double ior = 1.5;       // glass, plastic, thin_glass: the index inside; Scene::outside_ior is around it
   Color eta, k;           // conductor: real and imaginary part of the index
   double roughness = 0;   // glass, conductor, plastic: the square root of GGX's alpha
@@ -85,6 +86,7 @@ struct LightSpec {
   /// columns go around +y, and the middle lies towards -z.
   Image map;
   double rotation = 0;  // of the map about +y, in degrees
+  int object = -1;      // index into Scene::objects: the surface that it lies on
 };
 
 struct CameraSpec {

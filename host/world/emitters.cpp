@@ -66,8 +66,8 @@ LitRegion lit_region(const Scene& scene, FlatScene& world) {
 }
 
 /// Probabilities in proportion to power, as numbers owned: what kernels draw and what they state agree
-/// exactly. Emitters with less than 2^-48 of all power may own none. Returns how many the last one owns.
-std::uint64_t assign_numbers(FlatScene& world) {
+/// exactly. Emitters with less than 2^-48 of all power may own none.
+void assign_numbers(FlatScene& world) {
   const auto power = [](const Emitter& light) {
     return std::max({light.radiance.x, light.radiance.y, light.radiance.z}) *
            static_cast<double>(light.radiance.w) * (light.two_sided ? 2 : 1);
@@ -75,42 +75,63 @@ std::uint64_t assign_numbers(FlatScene& world) {
   for (const auto& light : world.emitters) world.emitted_power += power(light);
   constexpr double numbers = static_cast<double>(std::uint64_t{1} << EMITTER_CHOICE_BITS);
   double sum = 0;
-  std::uint64_t before = 0, owned = 0;
+  std::uint64_t before = 0;
   for (auto& light : world.emitters) {
     sum += power(light);
     light.cdf = static_cast<std::uint64_t>(std::llround(sum / world.emitted_power * numbers));
-    owned = light.cdf - before;
-    light.probability = static_cast<float>(static_cast<double>(owned) / numbers);
+    light.probability = static_cast<float>(static_cast<double>(light.cdf - before) / numbers);
     before = light.cdf;
   }
-  return owned;
+}
+
+/// The lights that are emitters, in their order: the background is the last, as kernels expect.
+std::vector<std::size_t> lit_lights(const Scene& scene) {
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (is_lit(scene.lights[i])) lit.push_back(i);
+  std::stable_partition(lit.begin(), lit.end(),
+                        [&](std::size_t i) { return !has_property(scene.lights[i].kind, BACKGROUND); });
+  return lit;
+}
+
+/// The texels of the lights that have maps, the background's first. Emitters from `first` on are `lights`.
+void add_maps(const Scene& scene, const std::vector<std::size_t>& lights, std::size_t first,
+              FlatScene& world) {
+  for (std::size_t i = lights.size(); i-- > 0;) {
+    const LightSpec& light = scene.lights[lights[i]];
+    if (light.map.rgba.empty()) continue;
+    Emitter& emitter = world.emitters[first + i];
+    const std::uint64_t numbers = emitter.cdf - (first + i > 0 ? (&emitter)[-1].cdf : 0);
+    const bool background = has_property(light.kind, BACKGROUND);
+    if (!background) emitter.shape = static_cast<uint>(world.environment.size());
+    const auto table = background ? environment_table(light.map, numbers) : flat_table(light.map, numbers);
+    world.environment.insert(world.environment.end(), table.begin(), table.end());
+  }
 }
 
 }  // namespace
 
+std::size_t emitters_from(const Scene& scene, int light) {
+  const auto lit = lit_lights(scene);
+  return static_cast<std::size_t>(lit.end() -
+                                  std::find(lit.begin(), lit.end(), static_cast<std::size_t>(light)));
+}
+
 void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatScene& world) {
-  const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
-                               [](const LightSpec& light) { return is_lit(light); });
-  if (!lit) {
-    assign_numbers(world);
-    return;
-  }
-  const LitRegion region = lit_region(scene, world);
-  const LightSpec* background = nullptr;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+  const std::size_t first = world.emitters.size();
+  const auto lights = lit_lights(scene);
+  const LitRegion region = lights.empty() ? LitRegion{} : lit_region(scene, world);
+  for (const std::size_t i : lights) {
     const LightSpec& light = scene.lights[i];
-    if (!is_lit(light)) continue;
-    if (has_property(light.kind, BACKGROUND)) {
-      background = &light;
-      continue;
-    }
-    world.emitters.push_back(light_record(light, region));
-    world.emitters.back().in_dielectric = !dielectrics.bodies.empty() && dielectrics.holds_light[i];
+    Emitter record = light_record(scene, light, region);
+    if (!dielectrics.bodies.empty())
+      record.in_dielectric = light.object < 0
+                                 ? dielectrics.holds_light[i]
+                                 : dielectrics.holds_emitter[static_cast<std::size_t>(light.object)];
+    world.emitters.push_back(record);
   }
-  // The last emitter, as kernels expect.
-  if (background) world.emitters.push_back(light_record(*background, region));
-  const std::uint64_t last = assign_numbers(world);
-  if (background) world.environment = environment_table(background->map, last);
+  assign_numbers(world);
+  add_maps(scene, lights, first, world);
 }
 
 }  // namespace causticl

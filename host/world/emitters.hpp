@@ -5,8 +5,11 @@
 
 namespace causticl {
 
-/// Appends the scene's delta lights and environment to the surfaces that are emitters of the world already,
-/// gives each its probability, and fills the environment's table.
+/// How many emitters there are from that of a light that is lit, index into Scene::lights, to the last.
+std::size_t emitters_from(const Scene& scene, int light);
+
+/// Appends the scene's lights to the surfaces that are emitters of the world already,
+/// gives each its probability, and fills the tables of their maps.
 void finish_emitters(const Scene& scene, const Dielectrics& dielectrics, FlatScene& world);
 
 }  // namespace causticl

@@ -55,7 +55,7 @@ class SceneFlattener {
   const MaterialSpec& material(const Object& object) const { return scene_.materials[object.material]; }
   // As a float, which is what the kernels see: the smallest doubles are none.
   bool emissive(const Object& object) const {
-    return static_cast<float>(max_component(material(object).emission)) > 0;
+    return material(object).light < 0 && static_cast<float>(max_component(material(object).emission)) > 0;
   }
 
   /// Of type and place alone: that of the object.

@@ -12,7 +12,7 @@ namespace {
 
 double square(float x) { return static_cast<double>(x) * x; }
 
-// A function for each row of LIGHT_TABLE that is no object.
+// A function for each row of LIGHT_TABLE that has no object.
 
 void write_point(const LightSpec& light, const LitRegion&, Emitter& record) {
   record.a = to_float4(light.position);
@@ -47,14 +47,28 @@ void write_environment(const LightSpec& light, const LitRegion& region, Emitter&
   record.first_area = static_cast<uint>(light.map.height);
 }
 
+/// An image that lies on an object: from its corner along u and v.
+void write_surface(const Scene& scene, const LightSpec& light, Emitter& record) {
+  const Object& object = scene.objects[static_cast<std::size_t>(light.object)];
+  const Vec3 u = object.transform.vector({1, 0, 0}), v = object.transform.vector({0, 1, 0});
+  const double mean = mean_radiance(light.map);
+  record.a = to_float4(object.transform.point({-0.5, -0.5, 0}));
+  record.b = to_float4(u, light.map.width);
+  record.c = to_float4(v, light.map.height);
+  record.radiance = to_float4({mean, mean, mean}, length(cross(u, v)));
+  record.two_sided = scene.materials[static_cast<std::size_t>(object.material)].two_sided;
+}
+
 }  // namespace
 
-Emitter light_record(const LightSpec& light, const LitRegion& region) {
+Emitter light_record(const Scene& scene, const LightSpec& light, const LitRegion& region) {
   Emitter record{};
   record.type = row_of(light.kind).number;
+  if (has_property(light.kind, SURFACE)) write_surface(scene, light, record);
 #define WRITE_EMISSIVE(name)
 #define WRITE_DELTA(name) \
   if (light.kind == LightSpec::Kind::name) write_##name(light, region, record);
+#define WRITE_SURFACE(name)
 #define WRITE_BACKGROUND(name) WRITE_DELTA(name)
 #define WRITE_LIGHT(x, NAME, number, name, effect, family, ...) WRITE_##family(name)
   LIGHT_TABLE(WRITE_LIGHT, )

@@ -13,6 +13,6 @@ struct LitRegion {
 };
 
 /// All but what an emitter shares with the others: its numbers and its probability.
-Emitter light_record(const LightSpec& light, const LitRegion& region);
+Emitter light_record(const Scene& scene, const LightSpec& light, const LitRegion& region);
 
 }  // namespace causticl

@@ -11,8 +11,8 @@ inline constexpr BadScene bad_lights[] = {
     {"light as a number", "\"width\": 64", "\"lights\": [1]",
      "scene.json:2: /lights/0: expected an object, got 1"},
     {"unknown light", "\"width\": 64", "\"lights\": [{\"type\": \"sun\"}]",
-     "scene.json:2: /lights/0/type: expected \"point\", \"spot\", \"directional\", \"disk\" or "
-     "\"environment\", got \"sun\""},
+     "scene.json:2: /lights/0/type: expected \"point\", \"spot\", \"directional\", \"disk\", "
+     "\"rectangle\" or \"environment\", got \"sun\""},
     {"point light with radiance", "\"width\": 64",
      "\"lights\": [{\"type\": \"point\", \"position\": [0, 1, 0], \"radiance\": [1, 1, 1]}]",
      "scene.json:2: /lights/0/radiance: unknown key \"radiance\"; use one of \"type\", \"position\" or "
@@ -50,6 +50,16 @@ inline constexpr BadScene bad_lights[] = {
      "scene.json:2: /lights/0/normal: expected a vector, got nothing; the key is required; write [x, y, z] "
      "or "
      "{\"x\": x, \"y\": y, \"z\": z}"},
+    {"rectangle light of two numbers that are no size", "\"width\": 64",
+     "\"lights\": [{\"type\": \"rectangle\", \"position\": [0, 1, 0], \"normal\": [0, -1, 0], \"size\": [1, "
+     "0], "
+     "\"radiance\": 1}]",
+     "scene.json:2: /lights/0/size/1: expected a positive number from 1e-12 to 1e12, got 0"},
+    {"rectangle light whose up is its normal", "\"width\": 64",
+     "\"lights\": [{\"type\": \"rectangle\", \"position\": [0, 1, 0], \"normal\": [0, -1, 0], \"up\": [0, 2, "
+     "0], "
+     "\"size\": [1, 1], \"radiance\": 1}]",
+     "scene.json:2: /lights/0/up: expected a direction across `normal`, got one along it"},
     {"environment of nothing", "\"width\": 64", "\"lights\": [{\"type\": \"environment\"}]",
      "scene.json:2: /lights/0: expected \"path\" or \"radiance\", got neither"},
     {"environment of both", "\"width\": 64",

@@ -70,6 +70,8 @@ inline const std::map<std::string, TableExample>& table_examples() {
        {"/lights/0", R"({"type": "directional", "direction": [0, -1, 0], "irradiance": 1})"}},
       {"light_disk", {"/lights/0", R"({"type": "disk", "position": [0, 5, 0], "normal": [0, -1, 0],
                                        "radius": 1, "radiance": 1})"}},
+      {"light_rectangle", {"/lights/0", R"({"type": "rectangle", "position": [0, 5, 0], "normal": [0, -1, 0],
+                                            "size": [2, 1], "radiance": 1})"}},
       {"light_environment", {"/lights/0", R"({"type": "environment", "radiance": 1})"}},
   };
   return examples;

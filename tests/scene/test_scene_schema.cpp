@@ -32,6 +32,7 @@ const std::map<std::string, std::string>& beyond_schema() {
       {"too many pixels", several},
       {"too many visible points", several},
       {"target at position", several},
+      {"rectangle light whose up is its normal", several},
       {"up along the view", several},
       {"default up along the view", several},
       {"up of length 0", "the length of a vector"},
