@@ -3,4 +3,5 @@
 #include "lights/directional.cl"
 #include "lights/environment.cl"
 #include "lights/point.cl"
+#include "lights/rectangle.cl"
 #include "lights/spot.cl"

@@ -46,16 +46,17 @@
   ROW(x, DISK,        19, disk,        0u,                  EMISSIVE,   ON_DISK,      \
       POSITION_KEY | NORMAL_KEY | RADIUS_KEY | RADIANCE_KEY, \
       "disk light", "black disk that emits; the camera sees it") \
-  ROW(x, RECTANGLE,   21, rectangle,   0u,                  EMISSIVE,   ON_RECTANGLE, \
-      POSITION_KEY | NORMAL_KEY | UP_KEY | SIZE_KEY | RADIANCE_KEY | TWO_SIDED_KEY, \
-      "rectangle light", "black rectangle that emits; the camera sees it") \
+  ROW(x, RECTANGLE,   21, rectangle,   EFFECT_IMAGE_LIGHTS, SURFACE,    ON_RECTANGLE, \
+      POSITION_KEY | NORMAL_KEY | UP_KEY | SIZE_KEY | IMAGE_KEY | TWO_SIDED_KEY, \
+      "rectangle light", "black rectangle that emits one radiance or an image; the camera sees it") \
   ROW(x, ENVIRONMENT, 20, environment, EFFECT_ENVIRONMENT,  BACKGROUND, BEYOND_SCENE, \
       MAP_KEY, "environment", "light from all directions; one at most")
 
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define LIGHT_EFFECTS(ROW, x) \
   ROW(x, ENVIRONMENT,    13, "environment",    IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "light from beyond the scene") \
-  ROW(x, DELTA_LIGHTS,   14, "delta_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "point, spot and directional lights")
+  ROW(x, DELTA_LIGHTS,   14, "delta_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "point, spot and directional lights") \
+  ROW(x, IMAGE_LIGHTS,   28, "image_lights",   IN_PATHS,              SCALAR_LIGHTS,            NO_GEOMETRY,     "rectangles whose light is an image")
 
 #ifdef __cplusplus
 enum LightNumber : unsigned {

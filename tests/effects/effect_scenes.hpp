@@ -43,6 +43,10 @@ inline std::vector<EffectScene> effect_scenes() {
   const auto with_light = [](const std::string& light) {
     return "{\"lights\": [" + light + "], " + effect_scene("").substr(1);
   };
+  const auto picture_lamp = [](const std::string& radiance) {
+    return R"({"type": "rectangle", "position": [0, 3, -1], "normal": [0, -1, 1], "size": [2, 1], "radiance": )" +
+           radiance + "}";
+  };
   const auto with_mesh = [](bool smooth) {
     return effect_scene(R"({"type": "mesh", "path": ")" CAUSTICL_SOURCE_DIR
                         R"(/scenes/assets/pawn.obj", "smooth": )" +
@@ -92,6 +96,10 @@ inline std::vector<EffectScene> effect_scenes() {
       {"delta_lights", with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [1, 1, 1]})"),
        with_light(R"({"type": "point", "position": [1, 2, 3], "intensity": [0, 0, 0]})"),
        "point light /lights/0"},
+      {"image_lights",
+       with_light(picture_lamp(R"({"type": "image", "path": ")" CAUSTICL_SOURCE_DIR
+                               R"(/scenes/assets/straw.png"})")),
+       with_light(picture_lamp("1")), "rectangle light /lights/0"},
       with_ball("absorption", R"({"type": "glass", "absorption": [0, 1, 2]})",
                 R"({"type": "glass", "absorption": [0, 0, 0]})", "absorption of /objects/2/material"),
       with_ball("dispersion", R"({"type": "glass", "cauchy": [1.5, 0.01]})",

@@ -39,6 +39,7 @@ const std::vector<Budget> budgets{
     {"effects/rough_metals.json", 800, 60000, 4096, 64, 40, 0.08},
     {"effects/point_lights.json", 400, 60000, 2048, 64, 40, 0.08},
     {"effects/sky.json", 8000, 10000, 65536, 32, 20, 0.06},
+    {"effects/picture_lamp.json", 400, 60000, 4096, 64, 40, 0.08},
     {"effects/spot_caustic.json", 200, 60000, 4096, 64, 40, 0.08, {"materials.ball"}},
     {"effects/sun.json", 96, 100000, 1024, 64, 40, 0.1, {"materials.glass", "materials.blue"}},
     {"effects/leaded_window.json",

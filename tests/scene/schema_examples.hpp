@@ -72,6 +72,7 @@ inline const std::map<std::string, TableExample>& table_examples() {
                                        "radius": 1, "radiance": 1})"}},
       {"light_rectangle", {"/lights/0", R"({"type": "rectangle", "position": [0, 5, 0], "normal": [0, -1, 0],
                                             "size": [2, 1], "radiance": 1})"}},
+      {"radiance_image", {"/lights/1/radiance", R"({"type": "image", "path": "5x4.png"})"}},
       {"light_environment", {"/lights/0", R"({"type": "environment", "radiance": 1})"}},
   };
   return examples;
@@ -81,6 +82,8 @@ inline const std::map<std::string, TableExample>& table_examples() {
 inline Json scene_with(const std::string& pointer, const Json& object) {
   Json scene = example_scene();
   if (pointer.rfind("/objects/1", 0) == 0) scene["objects"][1] = {{"type", "box"}};
+  if (pointer.rfind("/lights/1/", 0) == 0)
+    scene["lights"][1] = Json::parse(table_examples().at("light_rectangle").object);
   scene[Json::json_pointer(pointer)] = object;
   return scene;
 }
