@@ -21,8 +21,8 @@ using Color = Vec3;  // linear RGB
 
 struct TextureSpec {
   enum class Kind { image, checker };
-  std::string
-      pointer;  // JSON pointer, "/materials/wood/color"; empty for the base format's, without a filter
+  /// JSON pointer, "/materials/wood/color"; empty for the base format's, without a filter.
+  std::string pointer;
   Kind kind = Kind::image;
   int image = -1;  // index into Scene::images
   bool bilinear = false;

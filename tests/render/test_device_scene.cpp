@@ -21,7 +21,7 @@ TEST_CASE("texels reach the device as the nearest halfs") {
   while (image.rgba.size() < 256)
     image.rgba.push_back(static_cast<float>(std::exp2(random.uniform(-26, 16))));
   scene.images.push_back(image);
-  scene.textures.push_back({TextureSpec::Kind::image, 0, false, {1, 1}, {}, {}});
+  scene.textures.emplace_back().image = 0;
   scene.materials[0].color_texture = 0;
 
   const DeviceScene uploaded = update_device_scene(scene, test_device());
@@ -40,7 +40,7 @@ TEST_CASE("texels that are not finite reach the device as such, to be counted th
   scene.objects.push_back({});
   scene.materials.push_back({});
   scene.images.push_back({"", 1, 1, {NAN, INFINITY, -INFINITY, 1e6f}});
-  scene.textures.push_back({TextureSpec::Kind::image, 0, false, {1, 1}, {}, {}});
+  scene.textures.emplace_back().image = 0;
   scene.materials[0].color_texture = 0;
   const auto texels = test_device().download<cl_half>(update_device_scene(scene, test_device()).texels, 4);
   CHECK(std::isnan(cl_half_to_float(texels[0])));
