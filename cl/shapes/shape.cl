@@ -20,10 +20,10 @@ INLINE bool shape_closest(global const Shape *shape, uint index, global const fl
   uint type = shape->type;
   real t = INFINITY;
   real2 parameters = (real2)(0);
-#define INTERSECT(x, NAME, number, name, key, effect, points) \
+#define SHAPE_INTERSECT(x, NAME, number, name, key, effect, points) \
   if (HAS(effect) && type == SHAPE_##NAME) t = name##_intersect(shape, curves, ray, hit->t, &parameters);
-  SHAPE_TABLE(INTERSECT, )
-#undef INTERSECT
+  SHAPE_TABLE(SHAPE_INTERSECT, )
+#undef SHAPE_INTERSECT
   if (!(t < hit->t)) return false;
   hit->t = t;
   hit->primitive = HIT_SHAPE | index;
@@ -46,10 +46,10 @@ INLINE bool shape_occluded(global const Shape *shape, global const float *curves
 
 // Position, normals, uv and material at a hit that shape_closest found on the same ray.
 INLINE void shape_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
-#define SURFACE(x, NAME, number, name, key, effect, points) \
+#define SHAPE_SURFACE(x, NAME, number, name, key, effect, points) \
   if (HAS(effect) && (HAS_ALONE(effect) || shape->type == SHAPE_##NAME)) name##_surface(shape, curves, ray, hit, surface);
-  SHAPE_TABLE(SURFACE, )
-#undef SURFACE
+  SHAPE_TABLE(SHAPE_SURFACE, )
+#undef SHAPE_SURFACE
   surface->material = shape->material;
 }
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/float4.hpp"
 #include "scene/light_kind.hpp"
 #include "world/environment.hpp"
-#include "scene/float4.hpp"
 
 namespace causticl {
 namespace {
