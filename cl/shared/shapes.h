@@ -14,14 +14,16 @@
   ROW(x, SPHERE, 0, sphere, "sphere",        EFFECT_SPHERES, EMITTER_POINTS) \
   ROW(x, PLANE,  1, plane,  "plane",         EFFECT_PLANES,  NO_POINTS)      \
   ROW(x, DISK,   2, disk,   "disk",          EFFECT_DISKS,   EMITTER_POINTS) \
-  ROW(x, BEZIER, 3, bezier, "bezier_rotate", EFFECT_BEZIER,  OWN_POINTS)
+  ROW(x, BEZIER, 3, bezier, "bezier_rotate", EFFECT_BEZIER,  OWN_POINTS)     \
+  ROW(x, CYLINDER, 4, cylinder, "cylinder",  EFFECT_CYLINDERS, OWN_POINTS)
 
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define SHAPE_EFFECTS(ROW, x) \
   ROW(x, SPHERES, 1, "spheres", IN_PATHS, BATCHED,                  SHAPE_LEAVES, "spheres") \
   ROW(x, PLANES,  2, "planes",  IN_PATHS, SCALAR_PATHS,             UNBOUNDED,    "infinite planes") \
   ROW(x, DISKS,   3, "disks",   IN_PATHS, SCALAR_PATHS,             SHAPE_LEAVES, "disks") \
-  ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "revolved curves")
+  ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "revolved curves") \
+  ROW(x, CYLINDERS, 27, "cylinders", IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "cylinders")
 
 // Shapes that become triangles on upload: enumerator and name; type in scene files.
 #define TRIANGLE_SHAPE_TABLE(ROW, x) \

@@ -75,6 +75,8 @@ inline std::vector<EffectScene> effect_scenes() {
       {"curves", effect_scene(R"({"type": "bezier_rotate", "point": [[0, 0], [1, 0.2], [0.5, 1]],
                        "material": {"type": "diffuse"}})"),
        effect_scene(""), "bezier_rotate /objects/2"},
+      {"cylinders", effect_scene(R"({"type": "cylinder", "height": 1, "material": {"type": "diffuse"}})"),
+       effect_scene(""), "cylinder /objects/2"},
       with_ball(
           "textures",
           R"({"type": "diffuse", "color": {"type": "checker", "a": [1, 1, 1], "b": [0, 0, 0], "scale": [4, 4]}})",

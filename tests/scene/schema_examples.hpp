@@ -39,6 +39,7 @@ inline const std::map<std::string, TableExample>& table_examples() {
       {"object_sphere", {"/objects/0", R"({"type": "sphere", "radius": 1, "material": "white"})"}},
       {"object_plane", {"/objects/0", R"({"type": "plane", "material": "white"})"}},
       {"object_rectangle", {"/objects/0", R"({"type": "rectangle", "material": "white"})"}},
+      {"object_cylinder", {"/objects/0", R"({"type": "cylinder", "height": 2, "material": "white"})"}},
       {"object_disk", {"/objects/0", R"({"type": "disk", "material": "white"})"}},
       {"object_box", {"/objects/0", R"({"type": "box", "material": "white"})"}},
       {"object_mesh", {"/objects/0", R"({"type": "mesh", "path": "flat.obj", "material": "white"})"}},
