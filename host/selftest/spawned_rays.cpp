@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "scene/curve.hpp"
+#include "selftest/octahedron.hpp"
 #include "selftest/random_check.hpp"
 #include "selftest/spawned_ray.hpp"
 #include "selftest/stability_checks.hpp"
@@ -110,8 +111,7 @@ OutgoingRay outgoing_ray(InputRandom& random, std::uint32_t shape, const Transfo
 }
 
 cl::Program spawn_program(const CheckContext& context) {
-  return context.program(std::string(spawned_ray_source) + source,
-                         EFFECT_TRIANGLES | EFFECT_SPHERES | EFFECT_PLANES | EFFECT_DISKS | EFFECT_BEZIER);
+  return context.program(std::string(spawned_ray_source) + source, EFFECT_TRIANGLES | EFFECTS_OF_SHAPES);
 }
 
 /// Runs one check over the shapes of `first` and `second` (shapes and curves, or blocks and attributes).
@@ -139,6 +139,14 @@ CheckResult run_spawn_check(CheckContext& context, const char* kernel_name, cons
   return result;
 }
 
+template <typename Target, typename Judge>
+CheckResult run_shape_check(CheckContext& context, const std::vector<Shape>& shapes,
+                            const std::vector<float>& curves, const std::vector<Placement>& places,
+                            const Target& target, const Judge& judge) {
+  return run_spawn_check(context, "shape_spawn", context.device.upload(shapes, "shapes"),
+                         context.device.upload(curves, "curves"), places, target, judge);
+}
+
 /// The largest number that the position of a hit on a shape is made of.
 double coordinates(const Placement& place, const SpawnedRay& ray) {
   const Vec3 p = to_vec3(ray.position);
@@ -149,10 +157,8 @@ CheckResult spheres(CheckContext& context) {
   const auto places = placements(true, 4);
   std::vector<Shape> shapes;
   for (const auto& place : places) shapes.push_back(make_shape(SHAPE_SPHERE, place.to_world));
-  const cl::Buffer shape_buffer = context.device.upload(shapes, "shapes");
-  const cl::Buffer curves = context.device.upload(std::vector<float>{0}, "curves");
-  return run_spawn_check(
-      context, "shape_spawn", shape_buffer, curves, places,
+  return run_shape_check(
+      context, shapes, {0}, places,
       [](InputRandom& random) { return random.direction() * random.uniform(0, 0.9); },
       [&](const OutgoingRay& in, const SpawnedRay& out) -> double {
         return out.spawned() ? sphere_spawn_error(out, shapes[in.shape].sphere.w) : 1;
@@ -165,10 +171,8 @@ CheckResult flat_shapes(CheckContext& context, uint type, double reach) {
   const auto places = placements(false, 4);
   std::vector<Shape> shapes;
   for (const auto& place : places) shapes.push_back(make_shape(type, place.to_world));
-  const cl::Buffer shape_buffer = context.device.upload(shapes, "shapes");
-  const cl::Buffer curves = context.device.upload(std::vector<float>{0}, "curves");
-  return run_spawn_check(
-      context, "shape_spawn", shape_buffer, curves, places,
+  return run_shape_check(
+      context, shapes, {0}, places,
       [reach](InputRandom& random) {
         const Vec3 p = random.direction() * (reach * random.uniform());
         return Vec3{p.x, p.y, 0};
@@ -187,13 +191,10 @@ CheckResult disks(CheckContext& context) { return flat_shapes(context, SHAPE_DIS
 /// under every placement, and so is a chord over its cosine.
 CheckResult revolved_curves(CheckContext& context) {
   const auto places = placements(false, 4);
-  const cl::Buffer curves =
-      context.device.upload(curve_data({{0, -1}, {1.4, -1}, {1.4, 1}, {0, 1}}), "curves");
   std::vector<Shape> shapes;
   for (const auto& place : places) shapes.push_back(make_shape(SHAPE_BEZIER, place.to_world));
-  const cl::Buffer shape_buffer = context.device.upload(shapes, "shapes");
-  return run_spawn_check(
-      context, "shape_spawn", shape_buffer, curves, places,
+  return run_shape_check(
+      context, shapes, curve_data({{0, -1}, {1.4, -1}, {1.4, 1}, {0, 1}}), places,
       [](InputRandom& random) { return random.direction() * random.uniform(0, 0.7); },
       [&](const OutgoingRay& in, const SpawnedRay& out) -> double {
         if (!out.spawned()) return 1;
@@ -206,36 +207,36 @@ CheckResult revolved_curves(CheckContext& context) {
       });
 }
 
-/// The faces of an octahedron, counter-clockwise from outside: convex as well.
-TriangleBlock octahedron(const Transform& to_world) {
-  TriangleBlock block{};
-  for (uint face = 0; face < 8; ++face) {
-    Vec3 corners[3];
-    for (int axis = 0; axis < 3; ++axis) corners[axis][axis] = (face >> axis & 1) ? -1 : 1;
-    // An odd number of mirrored axes turns the winding around.
-    if (((face ^ face >> 1 ^ face >> 2) & 1) != 0) std::swap(corners[1], corners[2]);
-    for (int vertex = 0; vertex < 3; ++vertex) {
-      const Vec3 p = to_world.point(corners[vertex]);
-      for (int axis = 0; axis < 3; ++axis) block.position[vertex][axis][face] = static_cast<float>(p[axis]);
-    }
-    block.primitive[face] = face;
-  }
-  return block;
+/// How far the rim of a unit cylinder's image is from a point on it. Nearer than the point's own error, the
+/// point may as well lie on the other face.
+double distance_from_rim(const Transform& to_local, Vec3 position) {
+  const Vec3 p = to_local.point(position);
+  const double rho = std::hypot(p.x, p.z);
+  const Vec3 across = (p.x / rho) * to_local.rows[0] + (p.z / rho) * to_local.rows[2];
+  return std::fmax(std::fabs(rho - 1) / length(across),
+                   std::fabs(std::fabs(p.y) - 1) / length(to_local.rows[1]));
 }
 
-/// How near the plane of a second face is to a point. Where the plane is nearer than the point's own error,
-/// the point may as well lie on that face, and "the side of the surface" has no meaning.
-double second_nearest_face(const TriangleBlock& block, Vec3 p) {
-  double nearest = INFINITY, second = INFINITY;
-  for (int face = 0; face < 8; ++face) {
-    Vec3 v[3];
-    for (int vertex = 0; vertex < 3; ++vertex)
-      for (int axis = 0; axis < 3; ++axis) v[vertex][axis] = block.position[vertex][axis][face];
-    const double distance = std::fabs(dot(normalize(cross(v[1] - v[0], v[2] - v[0])), p - v[0]));
-    second = std::fmin(second, std::fmax(nearest, distance));
-    nearest = std::fmin(nearest, distance);
+CheckResult cylinders(CheckContext& context) {
+  const auto places = placements(false, 4);
+  std::vector<Shape> shapes;
+  for (const auto& place : places) {
+    shapes.push_back(make_shape(SHAPE_CYLINDER, place.to_world));
+    shapes.back().own[0] = 1;  // capped: convex
   }
-  return second;
+  return run_shape_check(
+      context, shapes, {0}, places,
+      [](InputRandom& random) { return random.direction() * random.uniform(0, 0.7); },
+      [&](const OutgoingRay& in, const SpawnedRay& out) -> double {
+        if (!out.spawned()) return 1;
+        if (!(out.displacement() <= 1e-5 * coordinates(places[in.shape], out))) return 1;
+        const double side = out.side();
+        if (std::fabs(side) < side_error) return 0;
+        if (side > 0) return std::isfinite(out.again) ? 1 : 0;
+        if (std::isfinite(out.again)) return 0;
+        const Transform to_local = places[in.shape].to_world.inverse();
+        return distance_from_rim(to_local, to_vec3(out.position)) < 2 * out.displacement() ? 0 : 1;
+      });
 }
 
 CheckResult closed_meshes(CheckContext& context) {
@@ -266,7 +267,8 @@ std::vector<Check> spawned_ray_checks() {
           {8, "spawned rays: no re-hit of planes", 1, planes},
           {8, "spawned rays: no re-hit of disks", 1, disks},
           {8, "spawned rays: no re-hit of closed meshes, no leak", 1, closed_meshes},
-          {8, "spawned rays: no re-hit of revolved curves, no leak", 4, revolved_curves}};
+          {8, "spawned rays: no re-hit of revolved curves, no leak", 4, revolved_curves},
+          {8, "spawned rays: no re-hit of cylinders, no leak", 1, cylinders}};
 }
 
 }  // namespace causticl
