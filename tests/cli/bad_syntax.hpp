@@ -66,14 +66,14 @@ inline constexpr BadScene bad_syntax[] = {
      "scene.json:8: /objects/1/radius: expected a positive number from 1e-12 to 1e12, got nothing; the key "
      "is required"},
     {"missing object type", "\"type\": \"rectangle\", ", "",
-     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"rectangle\", \"disk\", \"box\", "
-     "\"mesh\" or \"bezier_rotate\", got nothing; the key is required"},
+     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"disk\", \"bezier_rotate\", "
+     "\"cylinder\", \"rectangle\", \"box\" or \"mesh\", got nothing; the key is required"},
     {"unknown object type", "\"rectangle\"", "\"rectangel\"",
-     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"rectangle\", \"disk\", \"box\", "
-     "\"mesh\" or \"bezier_rotate\", got \"rectangel\"; did you mean \"rectangle\"?"},
+     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"disk\", \"bezier_rotate\", "
+     "\"cylinder\", \"rectangle\", \"box\" or \"mesh\", got \"rectangel\"; did you mean \"rectangle\"?"},
     {"object type of another program", "\"rectangle\"", "\"torus\"",
-     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"rectangle\", \"disk\", \"box\", "
-     "\"mesh\" or \"bezier_rotate\", got \"torus\""},
+     "scene.json:7: /objects/0/type: expected \"sphere\", \"plane\", \"disk\", \"bezier_rotate\", "
+     "\"cylinder\", \"rectangle\", \"box\" or \"mesh\", got \"torus\""},
     {"key of another object", "\"type\": \"rectangle\"", "\"type\": \"rectangle\", \"radius\": 1",
      "scene.json:7: /objects/0/radius: unknown key \"radius\"; use one of \"type\", \"transform\", "
      "\"motion\", \"texture\" or \"material\""},

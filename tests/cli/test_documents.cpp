@@ -77,6 +77,7 @@ TEST_CASE("every example of the scene format loads and keeps to the JSON Schema"
   const TemporaryFolder folder;
   folder.write("queen.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("wood.jpg"));
+  fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("painting.png"));
   fs::copy(root / "scenes/assets/maple_srgb.jpg", folder.path("sky.hdr"));  // the contents decide
   auto scenes = nlohmann::ordered_json::array();
   for (const std::string& example : blocks(text_of(root / "docs/scene-format.md"), "json")) {
