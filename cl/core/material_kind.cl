@@ -13,7 +13,8 @@
 #define LOBE_HAS_EFFECT(x, NAME, number, name, effect, family, ...) && ((family) == LAMBERT || (effect) != 0u)
 typedef char every_lobe_has_an_effect[1 MATERIAL_TABLE(LOBE_HAS_EFFECT, ) ? 1 : -1];
 
-INLINE bool is_lambert(uint kind) { return false MATERIAL_TABLE(KIND_HAS, LAMBERT); }
+INLINE bool is_diffuse(uint kind) { return false MATERIAL_TABLE(KIND_HAS, DIFFUSE_FAMILIES); }
+INLINE bool scatters(uint kind) { return false MATERIAL_TABLE(KIND_HAS, SCATTERS); }
 INLINE bool transmits(uint kind) { return false MATERIAL_TABLE(KIND_HAS, TRANSMITS); }
 INLINE bool is_layered(uint kind) { return false MATERIAL_TABLE(KIND_HAS, LAYERED); }
 INLINE bool stores_photons(uint kind) { return false MATERIAL_TABLE(KIND_HAS, STORES_PHOTONS); }

@@ -1,5 +1,6 @@
 // Direct light by one shadow ray, and how it is weighted against rays that meet an emitter by BSDF sampling.
 #include "lights/light.cl"
+#include "materials/over_lambert.cl"
 #include "scene/path_media.cl"
 
 // The power heuristic for two densities (Veach 1997, 9.2), as a ratio, since the square of a small far light's
@@ -102,8 +103,8 @@ typedef struct {
   real3 reflected;  // radiance to the path if nothing is in the way; zero where no ray need tell
 } LightCandidate;
 
-// Light from emitter `chosen` at a Lambert point (`reflectance` = albedo / pi; the boundary of coated diffuse lets a
-// fraction of the light through). With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
+// Light from emitter `chosen` at a diffuse point (`reflectance` = albedo / pi, which over_lambert.cl multiplies; the
+// boundary of coated diffuse lets a fraction of the light through). With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
 INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const LitPoint *point, real3 reflectance,
                                               real4 random, bool weigh_bsdf) {
   const Bsdf *bsdf = point->bsdf;
@@ -123,6 +124,7 @@ INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, c
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) reflectance = mul3(reflectance, over_lambert(bsdf, wi, light.direction, n));
   real3 reflected = scaled3(cosine * weight, mul3(reflectance, light.weight));
   LightCandidate found = {{origin, light.direction}, light.distance - light.margin,
                            choose3(cosine > 0 && same_side, reflected, (real3)(0, 0, 0))};

@@ -41,6 +41,7 @@ INLINE BsdfSample horizon_sample(const Geometry *g, const Bsdf *bsdf, const Surf
       cosine > 0 && dot3(sample.direction, surface->geometric_normal) * dot3(wi, surface->geometric_normal) < 0;
   sample.weight = same_side ? bsdf->color * (cosine * INV_PI / sample.pdf) : (real3)(0, 0, 0);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) sample.weight *= fresnel_transmittance(cosine, bsdf->ior);
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) sample.weight *= over_lambert(bsdf, wi, sample.direction, n);
   return sample;
 }
 

@@ -23,6 +23,7 @@ INLINE real shading_normal_arrival(const Surface *surface, real3 direction) {
 }
 
 #define WAYS_OF_LAMBERT(NAME, name, effect)
+#define WAYS_OF_SCATTERS(NAME, name, effect)
 #define WAYS_OF_REFLECTS(NAME, name, effect)
 #define WAYS_OF_TRANSMITS(NAME, name, effect)                                      \
   if (HAS(effect)) {                                                               \
@@ -96,14 +97,14 @@ INLINE BsdfSample adjoint_rough_sample(const Bsdf *bsdf, const Surface *surface,
 
 // Draws where a photon that arrives along `direction` goes on, with all factors.
 INLINE BsdfSample adjoint_bsdf_sample(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random) {
-  if (is_lambert(bsdf->kind)) return adjoint_diffuse_sample(bsdf, surface, direction, random);
+  if (is_diffuse(bsdf->kind)) return adjoint_diffuse_sample(bsdf, surface, direction, random);
   if (bsdf_is_rough(bsdf)) return adjoint_rough_sample(bsdf, surface, direction, random);
   return adjoint_specular_sample(bsdf, surface, direction, random);
 }
 
 // The same for loops over photons: see bsdf_sample_smooth().
 INLINE BsdfSample adjoint_bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random) {
-  bool diffuse = is_lambert(bsdf->kind);
+  bool diffuse = is_diffuse(bsdf->kind);
   BsdfSample sample = adjoint_diffuse_sample(bsdf, surface, direction, random);
   if (!HAS(EFFECTS_OF_MATERIALS(REFLECTS | TRANSMITS))) return sample;
   BsdfSample specular = adjoint_specular_sample(bsdf, surface, direction, random);

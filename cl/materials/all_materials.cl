@@ -1,6 +1,5 @@
-// Every material of MATERIAL_TABLE.
+// Every material of MATERIAL_TABLE but Lambert's: diffuse.cl, which samples all that are diffuse.
 #include "materials/conductor.cl"
-#include "materials/diffuse.cl"
 #include "materials/glass.cl"
 #include "materials/mirror.cl"
 #include "materials/plastic.cl"

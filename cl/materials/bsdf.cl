@@ -2,6 +2,7 @@
 //
 // Two forms of sampling: bsdf_sample() branches to the one function of the material; bsdf_sample_smooth() computes all and
 // selects, for loops over photons that the compiler turns into vector code (vector.cl).
+#include "materials/diffuse.cl"
 #include "materials/rough_lobe.cl"
 #include "materials/texture.cl"
 
@@ -60,6 +61,7 @@ INLINE void choose_lobe(Bsdf *bsdf, real3 wi, real3 n, real random) {
 }
 
 #define REFLECTANCE_OF_LAMBERT(NAME, name, effect)
+#define REFLECTANCE_OF_SCATTERS(NAME, name, effect)
 #define REFLECTANCE_OF_REFLECTS(NAME, name, effect)
 #define REFLECTANCE_OF_TRANSMITS(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_reflectance(bsdf, surface, wi, n);
@@ -73,6 +75,7 @@ INLINE real lobe_reflectance(const Bsdf *bsdf, const Surface *surface, real3 wi,
 }
 
 #define SELECT_LAMBERT(NAME, name, effect)
+#define SELECT_SCATTERS(NAME, name, effect)
 #define SELECT_REFLECTS(NAME, name, effect)                                                               \
   if (HAS(effect))                                                                                        \
     sample.weight =                                                                                       \
@@ -92,7 +95,7 @@ INLINE real lobe_reflectance(const Bsdf *bsdf, const Surface *surface, real3 wi,
 INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real4 random,
                                      bool radiance) {
   BsdfSample sample = {wi, bsdf->color, 0};
-  bool diffuse = is_lambert(bsdf->kind);
+  bool diffuse = is_diffuse(bsdf->kind);
   BsdfSample lambert = diffuse_sample(bsdf, surface, wi, n, random);
   real x = lambert.direction.x, y = lambert.direction.y, z = lambert.direction.z;
   if (HAS(EFFECTS_OF_MATERIALS(REFLECTS | TRANSMITS)) && !diffuse) {
@@ -107,6 +110,7 @@ INLINE BsdfSample bsdf_sample_smooth(const Bsdf *bsdf, const Surface *surface, r
 }
 
 #define SAMPLE_LAMBERT(NAME, name, effect)
+#define SAMPLE_SCATTERS(NAME, name, effect)
 #define SAMPLE_REFLECTS(NAME, name, effect)                                                            \
   if (IS_KIND(bsdf->kind, NAME, effect)) {                                                             \
     BsdfSample sample = {mirror_direction(surface, wi, n), name##_tint(bsdf, -dot3(wi, n), false), 0}; \

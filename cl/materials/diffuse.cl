@@ -1,9 +1,10 @@
-// Lambert's surface, bare or as the base of coated diffuse.
+// Diffuse surfaces: Lambert's, bare or as the base of coated diffuse, and those of over_lambert.cl, sampled alike.
 #include "materials/fresnel.cl"
+#include "materials/over_lambert.cl"
 #include "materials/shading_frame.cl"
 #include "sampling/warp.cl"
 
-// Lambert: density cos / pi about the facing normal n.
+// Density cos / pi about the facing normal n.
 INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3 wi, real3 n, real4 random) {
   BsdfSample sample;
   sample.direction = hemisphere_cosine_by(random.x, random.y, n);
@@ -13,10 +14,11 @@ INLINE BsdfSample diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3
   sample.weight = choose3(same_side, bsdf->color, (real3)(0, 0, 0));
   if (HAS(EFFECT_PLASTIC) && bsdf->coated)
     sample.weight *= fresnel_transmittance(dot3(sample.direction, n), bsdf->ior);
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) sample.weight *= over_lambert(bsdf, wi, sample.direction, n);
   return sample;
 }
 
-// Lambert: about Ng, so that the cosine of departure cancels.
+// About Ng, so that the cosine of departure cancels.
 INLINE BsdfSample adjoint_diffuse_sample(const Bsdf *bsdf, const Surface *surface, real3 d, real4 random) {
   ShadingFrame f = shading_frame(surface, d);
   BsdfSample sample;
@@ -34,5 +36,7 @@ INLINE BsdfSample adjoint_diffuse_sample(const Bsdf *bsdf, const Surface *surfac
     real lets_in = fresnel_transmittance(cosine, bsdf->ior);
     sample.weight *= fresnel_transmittance(cosine_wo, bsdf->ior) * (let_in > 0 ? lets_in / let_in : 0);
   }
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS)))
+    sample.weight *= over_lambert(bsdf, d, sample.direction, choose3(tilted, f.geometric, f.shading));
   return sample;
 }

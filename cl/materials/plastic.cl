@@ -2,7 +2,8 @@
 #include "materials/fresnel.cl"
 #include "materials/scattering.cl"
 
-INLINE void plastic_read(global const Material *material, Bsdf *bsdf) { bsdf->inner = material->eta.w; }
+// `own`: diffuse reflectance of the boundary from inside.
+INLINE void plastic_read(global const Material *material, Bsdf *bsdf) { bsdf->own = material->eta.w; }
 
 // What the boundary reflects, where `cosine` is of incidence.
 INLINE real3 plastic_tint(const Bsdf *bsdf, real cosine, bool refracts) {
@@ -17,7 +18,7 @@ INLINE real plastic_base_transmittance(const Bsdf *bsdf, real cosine) { return f
 // transmittance (Ashikhmin & Shirley 2000, with the sum over inner reflections of Kubelka 1942).
 INLINE void plastic_choose_lobe(Bsdf *bsdf, real3 wi, real3 n, real random) {
   real transmittance = fresnel_transmittance(-dot3(wi, n), bsdf->ior);
-  real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->inner));
+  real3 base = bsdf->color * transmittance / (bsdf->ior * bsdf->ior * (1 - bsdf->color * bsdf->own));
   real reflectance = 1 - transmittance, sum = reflectance + max_component(base);
   real specular_pmf = sum > 0 ? reflectance / sum : 1;
   if (random < specular_pmf) {

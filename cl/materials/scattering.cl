@@ -14,7 +14,7 @@ typedef struct {
   real ior;      // inside / outside
   real alpha;    // of a rough lobe; 0 for a perfectly specular one
   real3 eta, k;  // conductor: complex index inside / outside
-  real inner;    // coated diffuse: diffuse reflectance of the boundary from inside
+  real own;      // what the material's file keeps there, by name_read()
   bool coated;   // the Lambert lobe of coated diffuse, under its boundary
 } Bsdf;
 
@@ -37,8 +37,8 @@ typedef struct {
 
 // Whether light sampling can find the lobe, and its density weighs against that of lights.
 INLINE bool bsdf_is_rough(const Bsdf *bsdf) {
-  return HAS(EFFECT_ROUGH) && !is_lambert(bsdf->kind) && bsdf->alpha > 0;
+  return HAS(EFFECT_ROUGH) && !is_diffuse(bsdf->kind) && bsdf->alpha > 0;
 }
 
 // Whether the path leaves in the one direction that goes with its arrival.
-INLINE bool bsdf_is_specular(const Bsdf *bsdf) { return !is_lambert(bsdf->kind) && !bsdf_is_rough(bsdf); }
+INLINE bool bsdf_is_specular(const Bsdf *bsdf) { return !is_diffuse(bsdf->kind) && !bsdf_is_rough(bsdf); }

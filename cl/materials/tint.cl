@@ -2,6 +2,7 @@
 #include "materials/all_materials.cl"
 
 #define TINT_OF_LAMBERT(NAME, name, effect)
+#define TINT_OF_SCATTERS(NAME, name, effect)
 #define TINT_OF_REFLECTS(NAME, name, effect) \
   if (IS_KIND(bsdf->kind, NAME, effect)) return name##_tint(bsdf, cosine, refracts);
 #define TINT_OF_TRANSMITS(NAME, name, effect) TINT_OF_REFLECTS(NAME, name, effect)

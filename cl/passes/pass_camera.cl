@@ -154,7 +154,7 @@ OUTLINE uint visible_path(const Scene *scene, const Params *params, uint index, 
       break;
     }
 #if DIFFUSE_VERTICES_BATCHED
-    if (is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind)) {
+    if (is_diffuse(scene->materials[geometry_material(&scene->geometry, hit)].kind)) {
       DiffuseArrival arrival = {path.ray,    hit,         path.throughput, path.radiance.sum,
                                 path.counted, path.bounce, sampler.pixel,   index % params->visible_points};
       diffuse_vertices_put(diffuse_vertices, (*diffuse_vertex_count)++, &arrival);
@@ -168,9 +168,12 @@ OUTLINE uint visible_path(const Scene *scene, const Params *params, uint index, 
 
     real4 random = path_random_at(&sampler, path.bounce, DIM_BSDF);
     Bsdf bsdf = camera_path_bsdf(scene, &path, &boundary, material, &surface, random.z, counters);
-    if (!DIFFUSE_VERTICES_BATCHED && is_lambert(bsdf.kind)) {
+    if (!DIFFUSE_VERTICES_BATCHED && is_diffuse(bsdf.kind)) {
       LitPoint at = camera_path_lit_point(&path, &bsdf, &surface);
-      if (!visible_at_surface(scene, &path, &boundary, &visible, hit, &at, pixels, counters)) break;
+      bool goes_on = visible_at_surface(scene, &path, &boundary, &visible, hit, &at, pixels, counters);
+      if (HAS(EFFECTS_OF_MATERIALS(SCATTERS)))
+        visible_lobes(visible_points, params)[index] = visible_lobe(&bsdf, at.wi, at.n);
+      if (!goes_on) break;
       BsdfSample next = diffuse_sample(&bsdf, &surface, path.ray.direction, at.n, random);
       if (!camera_path_depart(scene, &path, &boundary, material, &surface, next, random.w)) break;
       path.bsdf_pdf = 0;
@@ -206,7 +209,7 @@ OUTLINE uint visible_paths(const Scene *scene, const Params *params, uint first,
       global const PrimaryHit *found = (global const PrimaryHit *)visible_points + index;
       Hit hit = hit_none(INFINITY);
       if (primary_hit(found, &hit))
-        receives = is_lambert(scene->materials[geometry_material(&scene->geometry, hit)].kind);
+        receives = is_diffuse(scene->materials[geometry_material(&scene->geometry, hit)].kind);
       DiffuseArrival arrival = {first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), false, 0, pixel, sample};
       diffuse_vertices_put(&diffuse_vertices, count, &arrival);
     }

@@ -109,6 +109,12 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
     for (uint kind = 0; kind < PHOTON_KINDS; ++kind) {
       if (!grids.present[kind] || (in_medium && kind != FOCUSED_PHOTONS)) continue;
       Gathered sum;
+      VisibleLobe lobe;
+      bool weighed = false;
+      if (HAS(EFFECTS_OF_MATERIALS(SCATTERS)) && !in_medium) {
+        lobe = visible_lobes(visible_points, &params)[i * params.visible_points + s];
+        weighed = scatters(lobe.kind);
+      }
       real3 flux_weight, near_flux_weight;
       if (in_medium) {
         real g = params.extinction.w;
@@ -118,9 +124,10 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
         near_flux_weight = flux_weight;
       } else {
         sum = gather_beside(grids.grid[kind], starts, sorted, vload3(0, point.position), point.normal,
-                            radius2 * kind_radius2(&params, kind), walls);
+                            radius2 * kind_radius2(&params, kind), walls, weighed ? &lobe : 0);
         flux_weight = weight * inverse_area[kind];
         near_flux_weight = weight * near_inverse_area[kind];
+        if (HAS(EFFECTS_OF_MATERIALS(SCATTERS)) && weighed) flux_weight /= LOBE_UNIT, near_flux_weight /= LOBE_UNIT;
       }
       reflected += flux_weight * (real3)(sum.red, sum.green, sum.blue);
       reflected_near += near_flux_weight * (real3)(sum.near_red, sum.near_green, sum.near_blue);

@@ -65,7 +65,7 @@ INLINE void path_emission(const Scene *scene, CameraPath *path, Hit hit, const S
 INLINE void path_direct_light(const Scene *scene, CameraPath *path, const Boundary *boundary, const Bsdf *bsdf,
                               const Surface *surface, const PathSampler *sampler, volatile global Counters *counters) {
   if (scene->emitter_count == 0 || media_covered(scene, &boundary->media)) return;
-  if (is_lambert(bsdf->kind) && max_component(bsdf->color) > 0) {
+  if (is_diffuse(bsdf->kind) && max_component(bsdf->color) > 0) {
     LitPoint point = camera_path_lit_point(path, bsdf, surface);
     uint rays = path->rays;
     real3 found = direct_light(scene, &point, path->throughput * bsdf->color * INV_PI,

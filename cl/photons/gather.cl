@@ -1,21 +1,7 @@
 // Finding the photons around a point: exact integer sums, eight photons at a time.
-#include "photons/grid.cl"
-#include "film/light_passes.cl"
-#include "media/medium.cl"
-#include "photons/walls.cl"
+#include "photons/gather_weighted.cl"
 
-typedef struct {
-  ulong red, green, blue;  // in units of Params.photon_flux / PHOTON_FLUX_UNIT
-  ulong near_red, near_green, near_blue;  // of those within sqrt(radius2) / 2
-  ulong direct_red, direct_green, direct_blue;     // with OUTPUT_LIGHT_PASSES, of those that came straight from a light
-  ulong caustic_red, caustic_green, caustic_blue;  // and by specular surfaces alone
-  uint count;
-} Gathered;
-
-// LIGHT_PASS_* of a photon's word of blue flux.
-INLINE uint photon_light_pass(uint flux_b) { return flux_b >> PHOTON_LIGHT_PASS_SHIFT; }
-
-// The same by lanes of eight photons, which the ranges of a search have in common.
+// Gathered by lanes of eight photons, which the ranges of a search have in common.
 typedef struct {
   uint8 red, green, blue, near_red, near_green, near_blue;
   uint8 direct_red, direct_green, direct_blue, caustic_red, caustic_green, caustic_blue;
@@ -91,13 +77,6 @@ OUTLINE int8 beside_walls(global const PhotonBlock *photons, int8 inside, const 
   return vload8(0, kept);
 }
 
-// A point around which photons are gathered.
-typedef struct {
-  real3 position;
-  uint normal;   // packed, of the side on which photons count
-  real radius2;  // within which they do
-} GatherPoint;
-
 // Adds photons begin to end - 1 of the map that lie within the radius of `point` and landed on the same side to the lanes,
 // and these to `sum` where they are full. `walls` are those near the point, or null.
 INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end, const GatherPoint *point,
@@ -131,7 +110,7 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       uint8 red_green = vload8(0, photons->flux_rg) & keep, b = vload8(0, photons->flux_b) & keep;
       uint8 r = red_green & 0xffffu, g = red_green >> 16;
       if (HAS(OUTPUT_LIGHT_PASSES)) {
-        uint8 layer = b >> PHOTON_LIGHT_PASS_SHIFT;
+        uint8 layer = photon_light_passes(b);
         b &= 0xffffu;
         uint8 direct = as_uint8(layer == LIGHT_PASS_DIRECT), caustic = as_uint8(layer == LIGHT_PASS_CAUSTIC);
         lanes->direct_red += r & direct;
@@ -141,6 +120,7 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
         lanes->caustic_green += g & caustic;
         lanes->caustic_blue += b & caustic;
       }
+      if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) b &= 0xffffu;
       lanes->red += r;
       lanes->green += g;
       lanes->blue += b;
@@ -149,67 +129,6 @@ INLINE void gather_range(global const PhotonBlock *sorted, uint begin, uint end,
       lanes->near_blue += b & near;
       lanes->count += inside;
     }
-  }
-}
-
-// A piece of a camera ray in the medium: what lies between `from` and `to` of its beginning.
-typedef struct {
-  real3 begin, direction;
-  real from, to;
-  real3 extinction;  // per unit length
-  real g;            // of the phase function
-} MediumSegment;
-
-// The phase function as a fraction of its peak is counted in so many parts, so that sums in the medium are exact.
-#define PHASE_UNIT 16777216.0f
-
-// A random number in [0, 1) that is the same wherever a photon of direction `packed` is met at distance `along`: by it
-// weights are rounded, since far from the peak of the phase function they are a few parts or less.
-INLINE real weight_dither(uint packed, real along) {
-  uint hash = (packed ^ as_uint((float)along)) * 2654435769u;
-  hash = (hash ^ (hash >> 15)) * 2246822519u;
-  return (real)(hash >> 8) / 16777216;
-}
-
-// Adds photons begin to end - 1 of the map that lie within sqrt(radius2) of the line of `segment`, between its ends: each
-// times the phase function for light that turns back along it and times transmittance to its beginning, in units of
-// phase_density(g, +-1) / PHASE_UNIT. Those within half the radius are also summed alone. This is the estimate of a beam by
-// points, with a blur in two dimensions (Jarosz, Nowrouzezahrai, Sadeghi, Jensen 2011, table 1).
-INLINE void gather_range_medium(global const PhotonBlock *sorted, uint begin, uint end, const MediumSegment *segment,
-                                real radius2, Gathered *sum) {
-  real peak = phase_density(segment->g, segment->g < 0 ? -1 : 1);
-  for (uint i = begin; i < end; ++i) {
-    global const PhotonBlock *photons = sorted + i / 8;
-    uint lane = i % 8, packed = photons->normal[lane];
-    if (!(packed & IN_MEDIUM)) continue;
-    real3 d = (real3)(photons->position[0][lane], photons->position[1][lane], photons->position[2][lane]) - segment->begin;
-    real along = dot(d, segment->direction);
-    d -= along * segment->direction;
-    real distance2 = dot(d, d);
-    if (!(distance2 <= radius2) || !(along >= segment->from) || !(along < segment->to)) continue;
-    real phase = fmin(phase_density(segment->g, -dot(direction_unpack(packed), segment->direction)) / peak, (real)1);
-    real3 weight = phase * transmittance(segment->extinction, along) * PHASE_UNIT + weight_dither(packed, along);
-    uint red_green = photons->flux_rg[lane], b = photons->flux_b[lane];
-    ulong red = (ulong)weight.x * (red_green & 0xffffu), green = (ulong)weight.y * (red_green >> 16);
-    ulong blue = (ulong)weight.z * (HAS(OUTPUT_LIGHT_PASSES) ? b & 0xffffu : b);
-    sum->red += red;
-    sum->green += green;
-    sum->blue += blue;
-    ++sum->count;
-    if (HAS(OUTPUT_LIGHT_PASSES) && photon_light_pass(b) == LIGHT_PASS_DIRECT) {
-      sum->direct_red += red;
-      sum->direct_green += green;
-      sum->direct_blue += blue;
-    }
-    if (HAS(OUTPUT_LIGHT_PASSES) && photon_light_pass(b) == LIGHT_PASS_CAUSTIC) {
-      sum->caustic_red += red;
-      sum->caustic_green += green;
-      sum->caustic_blue += blue;
-    }
-    if (!(distance2 <= radius2 / 4)) continue;
-    sum->near_red += red;
-    sum->near_green += green;
-    sum->near_blue += blue;
   }
 }
 
@@ -225,9 +144,9 @@ INLINE uint4 gather_window(Grid grid, real3 centre, real3 reach, uint4 *first) {
   return span >= n ? n : span + 1;
 }
 
-// Adds to `sum` what gather_range, or gather_range_medium where there is a `segment`, finds in every bucket that may
-// hold a photon within `reach` of the point along each axis, once: a window of at most n cubes along an axis of n
-// buckets has no two in one bucket.
+// Adds to `sum` what gather_range finds in every bucket that may hold a photon within `reach` of the point along each axis,
+// once, or gather_range_medium where there is a `segment`, or gather_range_lobe where the point has a lobe: a window of at
+// most n cubes along an axis of n buckets has no two in one bucket.
 OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const PhotonBlock *sorted, const GatherPoint *at,
                             real3 reach, const MediumSegment *segment, const NearWalls *walls, Gathered *sum) {
   const GatherPoint point = *at;
@@ -244,6 +163,8 @@ OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const P
         uint begin = part == 0 ? row[first.x] : row[0], end = part == 0 ? row[first_end] : row[wrapped];
         if (HAS(EFFECT_MEDIUM) && segment)
           gather_range_medium(sorted, begin, end, segment, point.radius2, sum);
+        else if (HAS(EFFECTS_OF_MATERIALS(SCATTERS)) && point.lobe)
+          gather_range_lobe(sorted, begin, end, &point, walls, sum);
         else if (HAS(EFFECT_WALLS) && walls)
           gather_range(sorted, begin, end, &point, walls, &lanes, sum);
         else
@@ -254,19 +175,15 @@ OUTLINE void gather_buckets(Grid grid, global const uint *starts, global const P
   gather_lanes_add(lanes, sum);
 }
 
-INLINE Gathered gathered_none(void) {
-  Gathered sum = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  return sum;
-}
-
 // Sums over all photons on surfaces within sqrt(radius2) of `point` that none of `walls` parts from it (null: there are
 // none), and over those within half that radius: what the two say differently of the density is a measure of how much the
-// larger one blurs.
+// larger one blurs. With a `lobe`, the sums are in units of 1 / LOBE_UNIT of those.
 INLINE Gathered gather_beside(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
-                              uint normal, real radius2, const NearWalls *walls) {
+                              uint normal, real radius2, const NearWalls *walls, const VisibleLobe *lobe) {
   Gathered sum = gathered_none();
   real radius = sqrt(radius2);
-  GatherPoint at = {point, normal, radius2};
+  GatherPoint at = gather_point(point, normal, radius2);
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) at.lobe = lobe;
   gather_buckets(grid, starts, sorted, &at, (real3)(radius, radius, radius), 0, walls, &sum);
   return sum;
 }
@@ -274,7 +191,7 @@ INLINE Gathered gather_beside(Grid grid, global const uint *starts, global const
 // The same whatever walls there are.
 INLINE Gathered gather(Grid grid, global const uint *starts, global const PhotonBlock *sorted, real3 point,
                        uint normal, real radius2) {
-  return gather_beside(grid, starts, sorted, point, normal, radius2, 0);
+  return gather_beside(grid, starts, sorted, point, normal, radius2, 0, 0);
 }
 
 // The same over all photons of the medium within sqrt(radius2) of the segment of length `length` that begins at
@@ -289,7 +206,7 @@ INLINE Gathered gather_medium(Grid grid, global const uint *starts, global const
   for (uint i = 0; i < steps; ++i) {
     segment.from = i * step;
     segment.to = i + 1 == steps ? length : (i + 1) * step;
-    GatherPoint at = {segment.begin + (segment.from + step / 2) * segment.direction, 0, radius2};
+    GatherPoint at = gather_point(segment.begin + (segment.from + step / 2) * segment.direction, 0, radius2);
     gather_buckets(grid, starts, sorted, &at, fabs(segment.direction) * (step / 2) + radius, &segment, 0, &sum);
   }
   return sum;

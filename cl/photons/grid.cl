@@ -56,3 +56,17 @@ INLINE real3 direction_unpack(uint packed) {
   if (z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
   return normalize((real3)(p.x, p.y, z));
 }
+
+// The same in 14 bits, dithered so that the mean of what a smooth function makes of it keeps its value.
+INLINE uint direction_pack_dithered(real3 d, real2 dither) {
+  real2 p = d.xy / (fabs(d.x) + fabs(d.y) + fabs(d.z));
+  if (d.z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
+  uint2 q = convert_uint2_sat_rtz((p + 1) * (real)63.5 + dither);
+  return min(q.x, 127u) | min(q.y, 127u) << 7;
+}
+INLINE real3 direction_unpack_dithered(uint packed) {
+  real2 p = (real2)(packed & 127u, packed >> 7 & 127u) / (real)63.5 - 1;
+  real z = 1 - fabs(p.x) - fabs(p.y);
+  if (z < 0) p = (1 - fabs(p.yx)) * (real2)(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
+  return normalize((real3)(p.x, p.y, z));
+}

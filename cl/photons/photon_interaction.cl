@@ -12,13 +12,13 @@ INLINE uint flux_quantise(real flux, real random, bool *saturated) {
   return (uint)clamp(units, (real)0, (real)65535);
 }
 
-// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits. Where shading normals have
-// raised the flux above what a record holds, several alike share it: else the tail of their factor, which has no bound,
-// would be missing.
+// The record of a photon, whose `flux` is relative to Params.photon_flux. Returns EVENT_* bits. Where shading normals, or
+// what a diffuse surface reflects at grazing angles, have raised the flux above what a record holds, several alike share
+// it: else the tail of their factor, which has no bound, would be missing.
 INLINE uint photon_record(real3 position, uint normal, real3 flux, uint prefix, real4 dither, Photon *record) {
   bool saturated = false;
   uint more = 0;
-  if (HAS(EFFECT_SMOOTH)) {
+  if (HAS(EFFECT_SMOOTH | EFFECTS_OF_MATERIALS(SCATTERS))) {
     more = (uint)fmin(max_component(flux) * (PHOTON_FLUX_UNIT / 65534), (real)EVENT_MOST_COPIES);
     flux = quotient3(flux, 1 + (real)more);
   }
@@ -77,7 +77,13 @@ INLINE uint photon_deposit(const LitPoint *at, const PhotonState *photon, real3 
   if (is_layered(at->bsdf->kind)) deposited = scaled3(base_transmittance(at->bsdf, -dot3(at->wi, at->n)), deposited);
   real side = dot3(surface->geometric_normal, at->wi) < 0 ? 1 : -1;
   uint normal = normal_pack(scaled3(side, surface->geometric_normal)) | photon->mark;
-  return photon_record(surface->position, normal, deposited, photon->prefix, dither, record);
+  uint stored = photon_record(surface->position, normal, deposited, photon->prefix, dither, record);
+  // Points of either law may lie around it. The low digits of a number are as good as another.
+  if (HAS(EFFECTS_OF_MATERIALS(SCATTERS))) {
+    real2 digits = (real2)(dither.w, dither.x * 4096);
+    record->flux_b |= direction_pack_dithered(at->wi, digits - floor(digits)) << PHOTON_DIRECTION_SHIFT;
+  }
+  return stored;
 }
 
 // Takes a photon from its hit number `bounce` to its next ray. Returns EVENT_* bits; what `photon` and
@@ -117,7 +123,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
     flux *= interior_transmittance(photon->interior, hit.t);
   }
 
-  bool layered = is_layered(bsdf.kind), diffuse = is_lambert(bsdf.kind);
+  bool layered = is_layered(bsdf.kind), diffuse = is_diffuse(bsdf.kind);
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
   bool counted = shadow_rays && bounce == 0, far = is_far(&scene->geometry, hit, surface.position);
@@ -135,11 +141,11 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
 
   if (layered) choose_lobe(&bsdf, direction, n, random.z);
   photon->prefix = prefix_after(photon->prefix, bsdf_is_specular(&bsdf));
-  photon->mark = is_lambert(bsdf.kind) ? INDIRECT_PHOTON : photon->mark;
+  photon->mark = is_diffuse(bsdf.kind) ? INDIRECT_PHOTON : photon->mark;
   BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
   if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
-  if (far && is_lambert(bsdf.kind))
+  if (far && is_diffuse(bsdf.kind))
     next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
   flux = mul3(flux, next.weight);
   // Absorption by Russian roulette: survivors keep the largest channel of the flux that they came with.

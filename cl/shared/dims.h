@@ -11,7 +11,7 @@
 
 #define DIM_BSDF 0u        // direction (xy), lobe (z), Russian roulette (w)
 #define DIM_LIGHT 1u       // which emitter (xw), point on it (yz)
-#define DIM_QUANTISE 2u    // dithering of stored flux (xyz)
+#define DIM_QUANTISE 2u    // dithering of stored flux (xyz) and direction (w)
 #define DIM_CHANNEL 3u     // which colour channel goes on through dispersive glass (x)
 #define DIM_MEDIUM 4u      // free flight in the medium: channel (x), distance (y)
 #define DIM_BRANCH 5u        // Russian roulette of looks along unlikely lobes (x)

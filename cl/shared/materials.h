@@ -2,9 +2,11 @@
 #pragma once
 
 // Families. The functions that a material's file holds follow from its family, its layers and its fields.
-#define LAMBERT 1u    // the diffuse surface, at which camera paths end
+#define LAMBERT 1u    // diffuse, at which camera paths of SPPM end; by Lambert's law, so that it needs no function
 #define REFLECTS 2u   // a lobe about the mirrored direction: name_tint()
 #define TRANSMITS 4u  // and one through the surface: name_sample(), name_reflectance(), name_tint(), name_ways(): see glass.cl
+#define SCATTERS 64u  // diffuse by another law: name_over_lambert(), see over_lambert.cl
+#define DIFFUSE_FAMILIES (LAMBERT | SCATTERS)
 
 // Layers.
 #define ONE_LOBE 0u

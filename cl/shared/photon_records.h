@@ -51,6 +51,14 @@ typedef struct {
   real offset[3];
 } VisibleSegment;
 
+// What a diffuse surface that is not Lambert's weighs photons by: Bsdf and LitPoint of the visible point. With an effect of
+// the family SCATTERS those of all points of a launch follow the points, layers and segments in their buffer.
+typedef struct {
+  real wi[3], normal[3], color[3];
+  real own;
+  uint kind;
+} VisibleLobe;
+
 // A photon that landed on a diffuse surface, or that the medium scatters, as traced. Flux is quantised with unbiased
 // dithering in units of Params.photon_flux / PHOTON_FLUX_UNIT, so that sums of flux are exact integers in any order.
 // Sixteen bits hold 16 times the flux of an emitted photon, which is as far as the factors of shading normals go: up to
@@ -60,10 +68,12 @@ typedef struct {
   real position[3];
   uint normal;         // normal_pack, facing the side that the photon came from; in the medium, where it was going
   uint flux_rg;        // red in the low 16 bits, green in the high ones
-  uint flux_b;         // in the low 16 bits; from bit PHOTON_LIGHT_PASS_SHIFT on, with OUTPUT_LIGHT_PASSES, the photon's layer
+  uint flux_b;         // in the low 16 bits; from bit PHOTON_LIGHT_PASS_SHIFT on, with OUTPUT_LIGHT_PASSES, the photon's layer;
+                       // from PHOTON_DIRECTION_SHIFT on, with an effect of the family SCATTERS, where it was going
 } Photon;
 
 #define PHOTON_LIGHT_PASS_SHIFT 16u
+#define PHOTON_DIRECTION_SHIFT 18u
 
 // Eight photons as the gather takes them, eight at a time. In the sorted map photon i is lane i % 8 of block i / 8.
 typedef struct {
@@ -77,12 +87,14 @@ typedef struct {
 CHECK_SIZE(VisiblePoint, 80);
 CHECK_SIZE(VisibleLightPasses, 72);
 CHECK_SIZE(VisibleSegment, 24);
+CHECK_SIZE(VisibleLobe, 88);
 CHECK_SIZE(Photon, 40);
 CHECK_SIZE(PhotonBlock, 288);
 #else
 CHECK_SIZE(VisiblePoint, 40);
 CHECK_SIZE(VisibleLightPasses, 36);
 CHECK_SIZE(VisibleSegment, 12);
+CHECK_SIZE(VisibleLobe, 44);
 CHECK_SIZE(Photon, 24);
 CHECK_SIZE(PhotonBlock, 192);
 #endif

@@ -141,8 +141,9 @@ std::string effect_reason<EFFECT_GUIDED_PHOTONS>(const Scene& scene) {
 template <>
 std::string effect_reason<EFFECT_AIMED_PHOTONS>(const Scene& scene) {
   if (!aims_photons(scene)) return "";
-  return by_material(scene, "type",
-                     [](const MaterialSpec& material) { return !has_property(material.kind, LAMBERT); });
+  return by_material(scene, "type", [](const MaterialSpec& material) {
+    return !has_property(material.kind, DIFFUSE_FAMILIES);
+  });
 }
 
 template <>

@@ -11,6 +11,7 @@
 #include "device_scene/walls.hpp"
 #include "effects/effects.hpp"
 #include "scene/lit_sides.hpp"
+#include "scene/material_kind.hpp"
 #include "shared/effects.h"
 
 namespace causticl {
@@ -45,9 +46,11 @@ Sppm::Sppm(const IntegratorInputs& in)
       photon_map_(in.device_scene, in.device, in.programs, counters_, guide_, aim_),
       with_photons_(in.with_photons && params_.emitter_count > 0),
       walled_(with_photons_ && (effect_bits(find_effects(in.scene)) & EFFECT_WALLS)),
-      visible_point_bytes_((sizeof(VisiblePoint) + (in.film.has_layers() ? sizeof(VisibleLightPasses) : 0) +
-                            ((in.programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0)) *
-                           record_scale(in.programs.options().precision)),
+      visible_point_bytes_(
+          (sizeof(VisiblePoint) + (in.film.has_layers() ? sizeof(VisibleLightPasses) : 0) +
+           ((in.programs.options().effects & EFFECT_MEDIUM) ? sizeof(VisibleSegment) : 0) +
+           ((in.programs.options().effects & effects_of_kinds(SCATTERS)) ? sizeof(VisibleLobe) : 0)) *
+          record_scale(in.programs.options().precision)),
       unknown_(in.device, in.programs) {
   device_.clear(counters_, sizeof(Counters));
   params_.visible_points = static_cast<uint>(spec_.visible_points);
