@@ -2,5 +2,6 @@
 #include "materials/conductor.cl"
 #include "materials/glass.cl"
 #include "materials/mirror.cl"
+#include "materials/oren_nayar.cl"
 #include "materials/plastic.cl"
 #include "materials/thin_glass.cl"

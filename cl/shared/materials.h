@@ -26,6 +26,7 @@
 #define KEY_ABSORPTION 16u
 #define KEY_ROUGHNESS 32u
 #define KEY_PRIORITY 64u
+#define KEY_DIFFUSE_ROUGHNESS 128u
 #define KEYS_OF_GLASS (KEY_COLOR | KEY_IOR | KEY_CAUCHY | KEY_ABSORPTION | KEY_ROUGHNESS | KEY_PRIORITY)
 
 // Columns: MATERIAL_NAME is its number in records; that number; its name in scene files and of its file, enumerator and
@@ -43,7 +44,9 @@
   ROW(x, PLASTIC,   4, plastic,   EFFECT_PLASTIC,   REFLECTS,  LAYERED,  OWN_FIELDS,    STORES_PHOTONS, \
       KEY_COLOR | KEY_IOR | KEY_ROUGHNESS, "coated diffuse: a dielectric boundary, smooth or rough, over a Lambert base") \
   ROW(x, THIN_GLASS, 5, thin_glass, EFFECT_THIN_GLASS, TRANSMITS, ONE_LOBE, COMMON_FIELDS, 0u, \
-      KEY_COLOR | KEY_IOR, "pane of glass without thickness: two faces and all reflections between them")
+      KEY_COLOR | KEY_IOR, "pane of glass without thickness: two faces and all reflections between them") \
+  ROW(x, OREN_NAYAR, 6, oren_nayar, EFFECT_OREN_NAYAR, SCATTERS, ONE_LOBE, OWN_FIELDS, STORES_PHOTONS, \
+      KEY_COLOR | KEY_DIFFUSE_ROUGHNESS, "rough diffuse: plaster, clay, cloth, the moon")
 
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define MATERIAL_EFFECTS(ROW, x) \
@@ -51,7 +54,8 @@
   ROW(x, GLASS,     7,  "glass",     IN_PATHS, BATCHED,       NO_GEOMETRY, "glass") \
   ROW(x, CONDUCTOR, 11, "conductor", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "conductors") \
   ROW(x, PLASTIC,   12, "plastic",   IN_PATHS, SCALAR_PATHS,  NO_GEOMETRY, "plastic") \
-  ROW(x, THIN_GLASS, 26, "thin_glass", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "thin glass")
+  ROW(x, THIN_GLASS, 26, "thin_glass", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "thin glass") \
+  ROW(x, OREN_NAYAR, 29, "oren_nayar", IN_PATHS | IN_GATHER, SCALAR_PATHS, NO_GEOMETRY, "rough diffuse surfaces")
 
 #ifdef __cplusplus
 enum MaterialKind : unsigned {

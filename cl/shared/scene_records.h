@@ -19,7 +19,7 @@ CHECK_SIZE(Camera, 96);
 typedef struct {
   float4 color;        // reflectance; w: index of refraction inside / outside
   float4 emission;     // emitted radiance; w: which emitter of the family SURFACE has it, counted from the last; 0 for none
-  float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside
+  float4 eta, k;       // conductor: complex index inside / outside; plastic: eta.w, reflectance from inside; oren_nayar: eta.w, roughness
   float4 absorption;   // glass: per unit length inside; w: Cauchy's B in um^2 / index outside, 0 without dispersion
   uint kind;           // MATERIAL_DIFFUSE ...
   uint flags;          // MATERIAL_TWO_SIDED | MATERIAL_ALPHA_DIFFUSE

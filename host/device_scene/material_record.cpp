@@ -34,6 +34,10 @@ void write_plastic(const MaterialSpec& spec, double outside_ior, Material& recor
   record.eta.w = static_cast<float>(inner_reflectance(spec.ior / outside_ior));
 }
 
+void write_oren_nayar(const MaterialSpec& spec, double, Material& record) {
+  record.eta.w = static_cast<float>(spec.diffuse_roughness);
+}
+
 }  // namespace
 
 Material material_record(const MaterialSpec& spec, double outside_ior) {

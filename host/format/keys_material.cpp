@@ -51,6 +51,8 @@ SceneTable table_of(const std::string& name, const std::string& text, unsigned k
   add(KEY_ABSORPTION, {"absorption", color(non_negative_number), 0,
                        "light keeps exp(-absorption distance) inside", "per unit length"});
   add(KEY_ROUGHNESS, roughness_key());
+  add(KEY_DIFFUSE_ROUGHNESS, {"diffuse_roughness", number(unit_number), MaterialSpec{}.diffuse_roughness,
+                              "roughness r of the model EON; 0 is Lambert"});
   add(KEY_PRIORITY, {"priority", integer(-1000000, 1000000), MaterialSpec{}.priority,
                      "where dielectrics overlap, the higher one fills the place"});
   if ((keys & KEY_CAUCHY) != 0)

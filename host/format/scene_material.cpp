@@ -73,6 +73,7 @@ int read_material(const SceneValue& value, SceneLoader& loader) {
   if (json.knows("absorption")) material.absorption = json.color("absorption");
   if (json.knows("priority")) material.priority = json.integer("priority");
   if (json.knows("roughness")) material.roughness = json.number("roughness");
+  if (json.knows("diffuse_roughness")) material.diffuse_roughness = json.number("diffuse_roughness");
   material.ior = json.knows("ior") ? json.number("ior", loader.glass_ior) : loader.glass_ior;
   if (json.knows("cauchy"))
     if (const auto cauchy = json.find("cauchy")) read_cauchy(*cauchy, material);

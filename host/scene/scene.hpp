@@ -42,12 +42,13 @@ struct MaterialSpec {
   Color emission;              // radiance
   bool two_sided = false;      // emits on both sides
   int light = -1;              // index into Scene::lights: the one that lies on it, whose mean `emission` is
-  double ior = 1.5;       // glass, plastic, thin_glass: the index inside; Scene::outside_ior is around it
-  Color eta, k;           // conductor: real and imaginary part of the index
-  double roughness = 0;   // glass, conductor, plastic: the square root of GGX's alpha
-  Vec3 absorption;        // glass: per unit length inside
-  int priority = 0;       // glass: the higher one fills where dielectrics overlap
-  double dispersion = 0;  // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
+  double ior = 1.5;      // glass, plastic, thin_glass: the index inside; Scene::outside_ior is around it
+  Color eta, k;          // conductor: real and imaginary part of the index
+  double roughness = 0;  // glass, conductor, plastic: the square root of GGX's alpha
+  double diffuse_roughness = 0.5;  // oren_nayar: r of EON
+  Vec3 absorption;                 // glass: per unit length inside
+  int priority = 0;                // glass: the higher one fills where dielectrics overlap
+  double dispersion = 0;           // glass: B of Cauchy's index ior + B / wavelength^2, in square micrometres
 };
 
 struct Object {

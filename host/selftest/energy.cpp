@@ -20,13 +20,20 @@ std::vector<FurnaceMaterial> furnace_materials() {
   const MaterialSpec diffuse = make_material(Kind::diffuse, 1), mirror = make_material(Kind::mirror, 1),
                      plastic = make_material(Kind::plastic, 1);
   MaterialSpec glass = make_material(Kind::glass, 1), dense = glass, rare = glass, textured = diffuse;
+  MaterialSpec rough_diffuse = make_material(Kind::oren_nayar, 1);
+  rough_diffuse.diffuse_roughness = 1;
   dense.ior = 2.5;
   rare.ior = 0.7;
   textured.color_texture = 0;
-  return {{"diffuse", diffuse},   {"textured", textured},
-          {"mirror", mirror},     {"glass", glass},
-          {"dense glass", dense}, {"rare glass", rare},
-          {"plastic", plastic},   {"thin glass", make_material(Kind::thin_glass, 1)}};
+  return {{"diffuse", diffuse},
+          {"textured", textured},
+          {"mirror", mirror},
+          {"glass", glass},
+          {"dense glass", dense},
+          {"rare glass", rare},
+          {"plastic", plastic},
+          {"thin glass", make_material(Kind::thin_glass, 1)},
+          {"rough diffuse", rough_diffuse}};
 }
 
 /// A column of the picture for each material, with its ball, in a box of infinite planes of radiance 1:

@@ -92,6 +92,7 @@ inline std::vector<EffectScene> effect_scenes() {
       with_ball("conductor", R"({"type": "conductor", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.2]})",
                 diffuse, "conductor of /objects/2/material"),
       with_ball("plastic", R"({"type": "plastic"})", diffuse, "plastic of /objects/2/material"),
+      with_ball("oren_nayar", R"({"type": "oren_nayar"})", diffuse, "oren_nayar of /objects/2/material"),
       with_ball("thin_glass", R"({"type": "thin_glass"})", diffuse, "thin_glass of /objects/2/material"),
       {"environment", with_light(R"({"type": "environment", "radiance": [1, 1, 1]})"), effect_scene(""),
        "environment /lights/0"},

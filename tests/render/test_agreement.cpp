@@ -55,6 +55,7 @@ const std::vector<Budget> budgets{
     {"effects/moving_balls.json", 1600, 30000, 16384, 64, 40, 0.1},
     {"effects/next_room.json", 400, 60000, 131072, 24, 18, 0.12},
     {"effects/tubes.json", 1600, 30000, 16384, 64, 40, 0.1},
+    {"effects/clay.json", 800, 60000, 8192, 64, 40, 0.1},
     {"effects/fog.json", 2400, 300000, 16384, 64, 40, 0.2},
 };
 

@@ -139,3 +139,21 @@ INLINE SpecularWays dummy_ways(const Bsdf *bsdf, ShadingFrame f, real eta) {
     CHECK(shaded < 0.985 * exact);  // so that the ball counts
   }
 }
+
+TEST_CASE("a material of the family SCATTERS is its file and its row") {
+  const TemporaryFolder folder;
+  add_dummy(folder, "OREN_NAYAR", "SCATTERS, ONE_LOBE, COMMON_FIELDS, STORES_PHOTONS",
+            "INLINE real3 dummy_over_lambert(const Bsdf *bsdf, real3 wi, real3 wo, real3 n) {\n"
+            "  return (real3)((real)0.25f, (real)0.125f, 0);\n}\n");
+  const Scene with = room(R"({"type": "oren_nayar", "color": 0.8})");
+  const Scene lambert = room(R"({"type": "diffuse", "color": [0.2, 0.1, 0]})");
+  const Scene white = room(R"({"type": "diffuse", "color": 0.8})");
+  for (const Integrator integrator : {Integrator::sppm, Integrator::pt}) {
+    INFO((integrator == Integrator::pt ? "pt" : "sppm"));
+    const int passes = integrator == Integrator::pt ? 1024 : 96;
+    const double seen = mean_luminance(render(with, integrator, passes, {}, folder.path("cl")).picture);
+    const double exact = mean_luminance(render(lambert, integrator, passes, {}, "").picture);
+    CHECK(seen == Approx(exact).epsilon(0.005));
+    CHECK(mean_luminance(render(white, integrator, passes, {}, "").picture) > 1.01 * exact);
+  }
+}

@@ -59,6 +59,7 @@ inline const std::map<std::string, TableExample>& table_examples() {
       {"material_conductor", {"/materials/white", R"({"type": "conductor", "eta": 1, "k": 3})"}},
       {"material_plastic", {"/materials/white", R"({"type": "plastic"})"}},
       {"material_thin_glass", {"/materials/white", R"({"type": "thin_glass"})"}},
+      {"material_oren_nayar", {"/materials/white", R"({"type": "oren_nayar"})"}},
       {"texture_image", {"/materials/white/color", R"({"type": "image", "path": "5x4.png"})"}},
       {"texture_checker", {"/materials/white/color", R"({"type": "checker", "a": 0, "b": [1, 1, 1]})"}},
       {"base_texture_raw", {"/objects/1/texture", R"({"type": "raw", "color": 1, "material": "diffuse"})"}},
