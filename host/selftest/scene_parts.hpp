@@ -92,8 +92,8 @@ struct RenderBudget {
 inline RenderResult render_for(
     CheckContext& context, const Scene& scene,
     const std::string& effects =
-        "triangles,spheres,planes,disks,textures,mirror,glass,plastic,thin_glass,shadow_rays,"
-        "environment,aimed_photons,smooth,needles,walls") {
+        "triangles,spheres,planes,disks,textures,mirror,glass,plastic,thin_glass,oren_nayar,"
+        "shadow_rays,environment,aimed_photons,smooth,needles,walls") {
   RenderOptions options;
   options.effects = effects;
   options.kernel_dir = context.kernel_dir;
