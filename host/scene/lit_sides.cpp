@@ -136,11 +136,8 @@ class LitSidesFinder {
   BoundingBox swept_bounds(const Object& object, const MeshPart& part) const {
     BoundingBox bounds;
     for (const double time : scene_.camera.shutter)
-      for (int corner = 0; corner < 8; ++corner)
-        bounds.add(object.transform.point({corner & 1 ? part.high.x : part.low.x,
-                                           corner & 2 ? part.high.y : part.low.y,
-                                           corner & 4 ? part.high.z : part.low.z}) +
-                   time * object.motion);
+      for (const Vec3 corner : box_corners(object.transform, part.low, part.high))
+        bounds.add(corner + time * object.motion);
     return bounds;
   }
 };

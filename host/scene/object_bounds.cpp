@@ -35,6 +35,13 @@ BoundingBox BoundingBox::grown(double margin) const {
   return {low - by, high + by};
 }
 
+std::array<Vec3, 8> box_corners(const Transform& transform, Vec3 low, Vec3 high) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = transform.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  return corners;
+}
+
 bool overlap(const BoundingBox& a, const BoundingBox& b) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis])) return false;

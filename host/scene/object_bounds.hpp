@@ -1,6 +1,7 @@
 // Boxes that hold objects, in world space.
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "scene/scene.hpp"
@@ -20,6 +21,9 @@ struct BoundingBox {
   /// Grown by `margin` on every side.
   BoundingBox grown(double margin) const;
 };
+
+/// The images of the corners of a box.
+std::array<Vec3, 8> box_corners(const Transform& transform, Vec3 low, Vec3 high);
 
 bool overlap(const BoundingBox& a, const BoundingBox& b);
 bool holds(const BoundingBox& box, Vec3 point);

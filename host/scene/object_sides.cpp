@@ -15,11 +15,8 @@ constexpr double rounding = 1e-6;  // of the size of coordinates: what touches l
 std::vector<Vec3> object_corners(const Scene& scene, const Object& object) {
   if (is_infinite(object)) return {};
   const auto [low, high] = kind_of(object).local_box(scene, object);
-  std::vector<Vec3> points;
-  for (int i = 0; i < 8; ++i)
-    points.push_back(
-        object.transform.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}));
-  return points;
+  const auto corners = box_corners(object.transform, low, high);
+  return {corners.begin(), corners.end()};
 }
 
 int sides_with(const Object& wall, const Object& other, const std::vector<Vec3>& corners) {

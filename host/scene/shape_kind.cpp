@@ -47,9 +47,7 @@ bool is_made_of_triangles(const Object& object) { return row_of(object.shape).of
 BoundingBox ShapeKind::bounds(const Scene& scene, const Object& object) const {
   BoundingBox result;
   const auto [low, high] = local_box(scene, object);
-  for (int i = 0; i < 8; ++i)
-    result.add(
-        object.transform.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}));
+  for (const Vec3 corner : box_corners(object.transform, low, high)) result.add(corner);
   return result;
 }
 

@@ -97,10 +97,7 @@ class Bezier : public ShapeKind {
     store_transform(transform, result.shape);
     result.curves = curve_data(points);
     const CurveBounds local = curve_bounds(points);
-    for (int i = 0; i < 8; ++i)
-      result.bounds.add(
-          transform.point({i & 1 ? local.high.x : local.low.x, i & 2 ? local.high.y : local.low.y,
-                           i & 4 ? local.high.z : local.low.z}));
+    for (const Vec3 corner : box_corners(transform, local.low, local.high)) result.bounds.add(corner);
     result.emitter.type = EMITTER_SHAPE;
     if (!emits) return result;
     const auto table = curve_area_table(points, EMITTER_AREA_STEPS);
