@@ -1,17 +1,14 @@
 // Shapes as the host uploads them, for kernels that are checked on their own.
 #pragma once
 
+#include "scene/shape_records.hpp"
 #include "selftest/vectors.hpp"
 
 namespace causticl {
 
 inline Shape make_shape(uint type, const Transform& transform, uint curve = 0) {
   Shape shape{};
-  const Transform inverse = transform.inverse();
-  for (int i = 0; i < 3; ++i) {
-    shape.to_world[i] = to_float4(transform.rows[i], transform.translation[i]);
-    shape.to_local[i] = to_float4(inverse.rows[i], inverse.translation[i]);
-  }
+  store_transform(transform, shape);
   shape.sphere = to_float4(transform.translation, length(transform.vector({1, 0, 0})));
   shape.type = type;
   shape.material = 7;

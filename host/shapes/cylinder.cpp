@@ -69,9 +69,6 @@ class Cylinder : public ShapeKind {
     }
   }
 
-  /// Its facets meet exactly.
-  bool is_closed_of_facets(const Object& object) const override { return object.own[capped] != 0; }
-
   ShapePrimitive primitive(const Object& placed, bool emits) const override {
     ShapePrimitive result;
     const Transform to_world = from_unit(placed);
