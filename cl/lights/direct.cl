@@ -104,7 +104,8 @@ typedef struct {
 } LightCandidate;
 
 // Light from emitter `chosen` at a diffuse point (`reflectance` = albedo / pi, which over_lambert.cl multiplies; the
-// boundary of coated diffuse lets a fraction of the light through). With `weigh_bsdf`, the sample is weighted against BSDF sampling by the power heuristic.
+// boundary of coated diffuse lets a fraction of the light through). With `weigh_bsdf`, the sample is weighted against BSDF
+// sampling by the power heuristic.
 INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, const LitPoint *point, real3 reflectance,
                                               real4 random, bool weigh_bsdf) {
   const Bsdf *bsdf = point->bsdf;

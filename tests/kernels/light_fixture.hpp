@@ -25,6 +25,25 @@ inline void add_light(Scene& scene, Object::Shape shape, const Transform& transf
   scene.objects.push_back(object);
 }
 
+/// The kernel emit(): how photons leave their emitters; origins[].w is which.
+inline const char* const emission_source = R"(
+#include "passes/pass_photon.cl"
+kernel void emit(SCENE_PARAMETERS, global float4 *origins, global float4 *directions, global float4 *fluxes, uint count,
+                 Params params) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  SCENE_INIT(params);
+  RandomStream stream = {params.seed, params.pass, i};
+  real3 flux;
+  real4 direction = random4(stream, DIM_EMISSION);
+  uint emitter = photon_emitter(&scene, stream);
+  Ray ray = photon_emit_from(&scene, emitter, random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
+  origins[i] = (float4)(convert_float3(ray.origin), emitter);
+  directions[i] = (float4)(convert_float3(ray.direction), 0);
+  fluxes[i] = (float4)(convert_float3(flux), 0);
+}
+)";
+
 /// A scene on the device with kernels run over it.
 struct Lights {
   DeviceScene scene;

@@ -5,28 +5,11 @@ using namespace causticl;
 
 namespace {
 
-const char* const source = R"(
-#include "passes/pass_photon.cl"
-kernel void emit(SCENE_PARAMETERS, global float4 *origins, global float4 *directions, global float4 *fluxes, uint count,
-                 Params params) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  SCENE_INIT(params);
-  RandomStream stream = {params.seed, params.pass, i};
-  real3 flux;
-  real4 direction = random4(stream, DIM_EMISSION);
-  Ray ray = photon_emit_from(&scene, photon_emitter(&scene, stream), random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
-  origins[i] = (float4)(ray.origin, 0);
-  directions[i] = (float4)(ray.direction, 0);
-  fluxes[i] = (float4)(flux, 0);
-}
-)";
-
 constexpr std::size_t sample_count = 1 << 20;
 using Shape3 = Object::Shape;
 
 cl::Program& program() {
-  static cl::Program built = build_test_program(source);
+  static cl::Program built = build_test_program(emission_source);
   return built;
 }
 

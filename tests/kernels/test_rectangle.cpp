@@ -9,7 +9,6 @@ using namespace causticl;
 namespace {
 
 const char* const source = R"(
-#include "passes/pass_photon.cl"
 typedef struct {
   float4 direction;  // w: pdf
   float4 weight;     // w: distance
@@ -36,20 +35,6 @@ kernel void sample(SCENE_PARAMETERS, global const float4 *uniform, global const 
   }
   out[i] = found;
 }
-kernel void emit(SCENE_PARAMETERS, global float4 *origins, global float4 *directions, global float4 *fluxes, uint count,
-                 Params params) {
-  uint i = get_global_id(0);
-  if (i >= count) return;
-  SCENE_INIT(params);
-  RandomStream stream = {params.seed, params.pass, i};
-  real3 flux;
-  real4 direction = random4(stream, DIM_EMISSION);
-  uint emitter = photon_emitter(&scene, stream);
-  Ray ray = photon_emit_from(&scene, emitter, random4(stream, DIM_EMITTER), direction.x, direction.y, &flux);
-  origins[i] = (float4)(convert_float3(ray.origin), emitter);
-  directions[i] = (float4)(convert_float3(ray.direction), 0);
-  fluxes[i] = (float4)(convert_float3(flux), 0);
-}
 )";
 
 struct Output {
@@ -61,7 +46,7 @@ constexpr std::size_t sample_count = 1 << 19;
 constexpr double width = 3, height = 0.5;
 
 cl::Program& program() {
-  static cl::Program built = build_test_program(source);
+  static cl::Program built = build_test_program(std::string(emission_source) + source);
   return built;
 }
 

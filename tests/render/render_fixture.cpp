@@ -65,6 +65,12 @@ double mean_luminance(const Picture& picture) {
   return sum / (static_cast<double>(picture.width) * picture.height);
 }
 
+Vec3 mean_color(const Picture& picture) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) sum[static_cast<int>(i % 3)] += picture.rgb[i];
+  return sum / (static_cast<double>(picture.width) * picture.height);
+}
+
 Picture box_filtered(const Picture& picture, int box) {
   Picture out{picture.width / box, picture.height / box, {}};
   out.rgb.assign(3u * out.width * out.height, 0.0f);

@@ -30,6 +30,9 @@ Picture layer_of(const Picture& picture, const std::string& name);
 /// The mean over all pixels of a picture's luminance.
 double mean_luminance(const Picture& picture);
 
+/// The mean of each channel over all pixels.
+Vec3 mean_color(const Picture& picture);
+
 /// A picture of the means of box x box pixels; what does not fill a box at the right and bottom is left out.
 Picture box_filtered(const Picture& picture, int box);
 

@@ -59,9 +59,8 @@ Scene scene_with(const TemporaryFolder& folder, const std::string& shape, const 
 }
 
 double mean_of(const Picture& picture) {
-  double sum = 0;
-  for (const float value : picture.rgb) sum += value;
-  return sum / static_cast<double>(picture.rgb.size());
+  const Vec3 mean = mean_color(picture);
+  return (mean.x + mean.y + mean.z) / 3;
 }
 
 }  // namespace

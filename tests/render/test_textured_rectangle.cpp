@@ -70,16 +70,9 @@ struct Pair {
   }
 };
 
-Vec3 mean_of(const Picture& picture) {
-  Vec3 mean;
-  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-    mean[static_cast<int>(i % 3)] += 3.0 * picture.rgb[i] / static_cast<double>(picture.rgb.size());
-  return mean;
-}
-
 void check_same_means(const Scene& image, const Scene& parts, Integrator integrator, int passes) {
-  const Vec3 a = mean_of(render_with(image, integrator, passes).picture),
-             b = mean_of(render_with(parts, integrator, passes).picture);
+  const Vec3 a = mean_color(render_with(image, integrator, passes).picture),
+             b = mean_color(render_with(parts, integrator, passes).picture);
   CAPTURE(a.x, b.x, a.y, b.y, a.z, b.z);
   for (int c = 0; c < 3; ++c) CHECK(a[c] == Approx(b[c]).epsilon(0.005));
 }

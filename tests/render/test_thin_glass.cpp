@@ -60,14 +60,6 @@ std::string lit_through(const std::string& pane) {
          "]}";
 }
 
-Vec3 mean_color(const Picture& picture) {
-  Vec3 sum;
-  const std::size_t count = picture.rgb.size() / 3;
-  for (std::size_t i = 0; i < count; ++i)
-    sum = sum + Vec3{picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]};
-  return 1.0 / static_cast<double>(count) * sum;
-}
-
 void check_close(Vec3 a, Vec3 b, double relative) {
   CHECK(a.x == Approx(b.x).epsilon(relative));
   CHECK(a.y == Approx(b.y).epsilon(relative));
