@@ -30,7 +30,7 @@ inline constexpr BadScene bad_materials[] = {
      "scene.json:7: /objects/0/material: expected the name of a material, or an object, got 0"},
     {"unknown material type", "\"diffuse\", \"color\"", "\"difuse\", \"color\"",
      "scene.json:5: /materials/white/type: expected \"diffuse\", \"mirror\", \"glass\", \"conductor\", "
-     "\"plastic\" or \"thin_glass\", got \"difuse\"; did you mean \"diffuse\"?"},
+     "\"plastic\", \"thin_glass\" or \"oren_nayar\", got \"difuse\"; did you mean \"diffuse\"?"},
     {"conductor with a colour", "\"diffuse\", \"color\"",
      "\"conductor\", \"eta\": [1, 1, 1], \"k\": [3, 3, 3], \"color\"",
      "scene.json:5: /materials/white/color: unknown key \"color\"; use one of \"type\", \"eta\", \"k\", "
