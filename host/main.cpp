@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "accuracy/compare.hpp"
+#include "app/film_setup.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/render_setup.hpp"
@@ -13,11 +14,14 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "base/output_file.hpp"
+#include "base/spelling.hpp"
 #include "device_scene/channel_shifts.hpp"
+#include "film/merge_films.hpp"
 #include "format/load_scene.hpp"
 #include "format/scene_output.hpp"
 #include "format/scene_schema.hpp"
 #include "render/explain.hpp"
+#include "render/film_picture.hpp"
 #include "scene/integrators.hpp"
 #include "selftest/selftest_processes.hpp"
 #include "selftest/stability_checks.hpp"
@@ -81,6 +85,7 @@ int render(const Options& options) {
   RenderOptions render = options.render;
   render.outputs = output_files(options, scene);
   check_outputs(options, render.outputs);
+  set_film(options, scene, render.film);
 
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
@@ -110,6 +115,29 @@ int render(const Options& options) {
   last.take([&] { write_json(options.stats_json, statistics_json(result.statistics)); });
   if (options.stats) last.take([&] { print_output(statistics_table(result.statistics)); });
   return last.exit_code(result.statistics.stop == StopReason::interrupted ? interrupted : done);
+}
+
+int merge(const Options& options) {
+  for (const auto& file : options.render.outputs) check_output(file);
+  if (!options.film.empty()) check_writable(options.film);
+  FilmMerger merger;
+  for (const auto& file : options.films) merger.add(file, read_film(file));
+  const FilmState film = merger.finish();
+  ProgressReport progress(stderr, options.quiet);
+  if (film.devices.size() > 1)
+    progress.note("the parts are of " + listed(film.devices) + ": the bits are those of no single device");
+  LastSteps last;
+  if (!options.film.empty()) last.take([&] { write_film(options.film, film); });
+  if (options.render.outputs.empty()) return last.exit_code();
+  KernelCache kernels(options.keep_kernels);
+  Device device(find_device(options.device), options.render.threads, &kernels);
+  const RenderResult result = picture_of(film, device, options.render.confidence);
+  report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
+  const auto unwritten = write_pictures(options.render.outputs, result.picture,
+                                        metadata_of(film, result.statistics), Unwritable::kept);
+  progress.finish(written(options.render.outputs, unwritten), result.statistics);
+  for (const auto& [file, fault] : unwritten) last.failed(fault);
+  return last.exit_code();
 }
 
 int explain(const Options& options) {
@@ -192,6 +220,8 @@ int run(const Options& options) {
   switch (options.command) {
     case Options::Command::render:
       return render(options);
+    case Options::Command::merge:
+      return merge(options);
     case Options::Command::devices:
       return print(device_list(list_devices()));
     case Options::Command::explain:

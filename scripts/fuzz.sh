@@ -2,7 +2,7 @@
 # Usage: scripts/fuzz.sh [--seconds N] [--runs N] [TARGET...]
 # Installs what is missing, builds the fuzzers with clang, AddressSanitizer and UBSan in build-fuzz/ and runs them
 # one after the other on one core: all, or those that are named (scene override obj ply png jpeg hdr bmp tga pfm
-# exr kernels study). Inputs with new coverage are kept in build-fuzz/corpus/, and the next call goes on from
+# exr kernels study film). Inputs with new coverage are kept in build-fuzz/corpus/, and the next call goes on from
 # there. Inputs that broke something are kept in build-fuzz/findings/.
 #   --seconds N  for each target (60)
 #   --runs N     at most so many executions of each target in this call

@@ -121,7 +121,7 @@ INLINE void visible_store(const Params *params, uint index, const CameraPath *pa
 }
 
 // One visible point for each of visible_points samples of each pixel of the chunk, at index
-// (pixel - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
+// (pixel of the film - first_pixel) * visible_points + sample. Emission met on the way is exact; direct light at the point
 // comes by a shadow ray where the program was built for that, else from photons. There the emission that rough
 // lobes reflect is found by shadow rays too, weighted against the rays that meet it; that of delta lights, which no ray
 // meets, in either case. Returns the number of rays traced.
@@ -201,7 +201,7 @@ OUTLINE uint visible_paths(const Scene *scene, const Params *params, uint first,
                            global const SppmPixel *pixels) {
   DiffuseVertices diffuse_vertices;
   uint count = 0, rays = 0, others[STREAM_CAPACITY], other_count = 0, samples = params->visible_points;
-  uint pixel = params->first_pixel + first / samples, sample = first % samples;
+  uint of_film = params->first_pixel + first / samples, pixel = picture_pixel(params, of_film), sample = first % samples;
   for (uint index = first; index < end; ++index) {
     bool receives = false;
     if (PRIMARY_HITS_FOUND) {
@@ -217,7 +217,8 @@ OUTLINE uint visible_paths(const Scene *scene, const Params *params, uint first,
     count += receives ? 1u : 0u;
     other_count += receives ? 0u : 1u;
     sample = sample + 1 == samples ? 0 : sample + 1;
-    pixel += sample == 0 ? 1u : 0u;
+    of_film += sample == 0 ? 1u : 0u;
+    pixel = picture_pixel(params, of_film);
   }
   rays += count;
   for (uint i = 0; i < other_count; ++i)

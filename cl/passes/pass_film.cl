@@ -1,5 +1,5 @@
 // What the film tells of its own error.
-#include "film/film.cl"
+#include "film/pixel_statistics.cl"
 
 // Pixels to each side over which variance and blur are pooled.
 #define REACH 1
@@ -32,61 +32,50 @@ INLINE uint window_of(uint x, uint size, uint reach, uint *first) {
   return min(x + reach + 1, size);
 }
 
-INLINE float film_estimates(global const FilmPixel *pixel, uint passes) { return (float)(passes - pixel->left_out); }
-
 // Pixels to each side whose spread and blur pixel_error() reads: of windows of blur beside that of the pixel.
 #define ERROR_REACH (3 * REACH + 1)
 
 // A power of two that brings what pixel_error() squares near to 1: squares of very dim and very bright light are beyond
 // floats. Errors are computed in its units.
-INLINE float unit_around(global const FilmPixel *film, uint width, uint height, uint x, uint y) {
+INLINE float unit_around(global const PixelStatistics *pixels, uint width, uint height, uint x, uint y) {
   uint left, top, right = window_of(x, width, ERROR_REACH, &left), bottom = window_of(y, height, ERROR_REACH, &top);
   float largest = 0;
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) {
-      global const FilmPixel *pixel = film + j * width + i;
-      largest = fmax(largest, fmax(pixel->m2_deviation, fmax(fabs(pixel->kernel_bias[0]), fabs(pixel->kernel_bias[1]))));
+      global const PixelStatistics *pixel = pixels + j * width + i;
+      largest = fmax(largest, fmax(pixel->deviation, fmax(fabs(pixel->kernel_bias[0]), fabs(pixel->kernel_bias[1]))));
     }
   return largest > 0 ? ldexp(1.0f, -clamp(ilogb(largest), -100, 100)) : 1.0f;
 }
 
 // In squared units, as all variances here.
-INLINE float variance_of_mean(global const FilmPixel *pixel, uint passes, float unit) {
-  float m2_deviation = pixel->m2_deviation * unit;
-  return m2_deviation * m2_deviation / fmax(film_estimates(pixel, passes) - 1, 1.0f);
+INLINE float variance_of_mean(global const PixelStatistics *pixel, float unit) {
+  float deviation = pixel->deviation * unit;
+  return deviation * deviation / fmax(pixel->estimates - 1, 1.0f);
 }
 
 // The mean of variances over the window around (x, y).
-INLINE float variance_around(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint reach,
-                             uint passes, float unit) {
+INLINE float variance_around(global const PixelStatistics *pixels, uint width, uint height, uint x, uint y, uint reach,
+                             float unit) {
   uint left, top, right = window_of(x, width, reach, &left), bottom = window_of(y, height, reach, &top);
   float sum = 0;
   for (uint j = top; j < bottom; ++j)
-    for (uint i = left; i < right; ++i) sum += variance_of_mean(film + j * width + i, passes, unit);
+    for (uint i = left; i < right; ++i) sum += variance_of_mean(pixels + j * width + i, unit);
   return sum / ((right - left) * (bottom - top));
-}
-
-// Half of the difference between the means of one half of the passes and of the other.
-INLINE float half_buffer_difference(global const FilmPixel *pixel, uint passes) {
-  uint estimates = passes - pixel->left_out;
-  float each = 1 / fmax((float)estimates, 1.0f);
-  float mean = luminance(pixel->sum[0], pixel->sum[1], pixel->sum[2]) * each;
-  float unpaired = estimates & 1u ? sign_of_estimate(estimates - 1) * mean : 0.0f;
-  return (pixel->signed_half_sum - unpaired) * each;
 }
 
 // The variance of means around (x, y) over what it were if a pixel's estimates were independent of each other. The
 // difference of halves tells it, since these are independent, but only where it is not that of the pixels beside.
-INLINE float variance_ratio(global const FilmPixel *film, uint width, uint height, uint x, uint y, uint passes,
-                               float unit) {
+INLINE float variance_ratio(global const PixelStatistics *pixels, uint width, uint height, uint x, uint y,
+                            float unit) {
   uint left, top, right = window_of(x, width, HALF_BUFFERS_REACH, &left), bottom = window_of(y, height, HALF_BUFFERS_REACH, &top);
   float squares = 0, variances = 0;
   for (uint j = top; j < bottom; ++j)
     for (uint i = left; i < right; ++i) {
-      global const FilmPixel *pixel = film + j * width + i;
-      float difference = half_buffer_difference(pixel, passes) * unit;
+      global const PixelStatistics *pixel = pixels + j * width + i;
+      float difference = pixel->half_difference * unit;
       squares += difference * difference;
-      variances += variance_of_mean(pixel, passes, unit);
+      variances += variance_of_mean(pixel, unit);
     }
   float ratio = squares / variances;
   return variances > 0 && isfinite(ratio) ? ratio : 1.0f;
@@ -99,13 +88,13 @@ typedef struct {
   uint pixels;
 } KernelBias;
 // Not inlined: the compiler of PoCL 6 (LLVM 19) fails on the kernel otherwise.
-OUTLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, uint height, int x, int y, float unit) {
+OUTLINE KernelBias kernel_bias_around(global const PixelStatistics *pixels, uint width, uint height, int x, int y, float unit) {
   float first = 0, second = 0;
   KernelBias kernel_bias = {0, 0, 0};
   for (int j = max(y - REACH, 0); j < min(y + REACH + 1, (int)height); ++j)
     for (int i = max(x - REACH, 0); i < min(x + REACH + 1, (int)width); ++i, ++kernel_bias.pixels) {
-      first += film[j * width + i].kernel_bias[0] * unit;
-      second += film[j * width + i].kernel_bias[1] * unit;
+      first += pixels[j * width + i].kernel_bias[0] * unit;
+      second += pixels[j * width + i].kernel_bias[1] * unit;
     }
   if (kernel_bias.pixels == 0) return kernel_bias;
   first /= (float)kernel_bias.pixels;
@@ -115,7 +104,7 @@ OUTLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, 
   return kernel_bias;
 }
 
-// Error of `pixel` after `passes` passes, in luminance. `even` tells that a pixel's estimates are more even than
+// Error of `pixel` in luminance. `low_discrepancy` tells that a pixel's estimates are more even than
 // independent ones (sobol.cl), and owe nothing to what other pixels have in common.
 //   noise: the standard deviation of the mean; its variance is that of the estimates over their number, whatever
 //          schedule their radii follow, times variance_ratio() where they are even. What the pixel's own passes say of
@@ -125,40 +114,52 @@ OUTLINE KernelBias kernel_bias_around(global const FilmPixel *film, uint width, 
 //   bias:  its absolute value, from the blur around the pixel, once of each half of the passes. Both have noises of their
 //          own, so that half their difference is as noisy as their mean: the square of the first, over the pixel's window
 //          and the eight beside it, is what the square of the second owes to noise.
-//   drawn: half_buffer_difference(). It is made of the same estimates as the error of their mean, but for signs, and has its
-//          variance and kurtosis.
-INLINE PixelError pixel_error(global const FilmPixel *film, uint width, uint height, uint pixel, uint passes,
+//   half_difference: of the means of both halves of the passes. It is made of the same estimates as the error of their
+//          mean, but for signs, and has its variance and kurtosis.
+INLINE PixelError pixel_error(global const PixelStatistics *pixels, uint width, uint height, uint pixel,
                               bool low_discrepancy) {
   uint x = pixel % width, y = pixel / width;
-  float unit = unit_around(film, width, height, x, y);
-  float pooled = variance_around(film, width, height, x, y, REACH, passes, unit);
-  float further = variance_around(film, width, height, x, y, BOUND_REACH, passes, unit);
-  float bound = fmax(pooled, BOUND_PASSES / (BOUND_PASSES + passes) * further);
-  KernelBias own = kernel_bias_around(film, width, height, (int)x, (int)y, unit);
+  global const PixelStatistics *p = pixels + pixel;
+  float unit = unit_around(pixels, width, height, x, y);
+  float pooled = variance_around(pixels, width, height, x, y, REACH, unit);
+  float further = variance_around(pixels, width, height, x, y, BOUND_REACH, unit);
+  float bound = fmax(pooled, BOUND_PASSES / (BOUND_PASSES + p->estimates) * further);
+  KernelBias own = kernel_bias_around(pixels, width, height, (int)x, (int)y, unit);
   float noise = 0, windows = 0;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
-      KernelBias beside = kernel_bias_around(film, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), unit);
+      KernelBias beside = kernel_bias_around(pixels, width, height, (int)x + i * (2 * REACH + 1), (int)y + j * (2 * REACH + 1), unit);
       noise += beside.deviation * beside.deviation;
       windows += beside.pixels > 0 ? 1.0f : 0.0f;
     }
-
-  global const FilmPixel *p = film + pixel;
   PixelError error;
-  error.luminance = luminance(p->sum[0], p->sum[1], p->sum[2]) / fmax(film_estimates(p, passes), 1.0f);
-  float ratio = low_discrepancy ? variance_ratio(film, width, height, x, y, passes, unit) : 1.0f;
-  float own_variance = variance_of_mean(p, passes, unit);
+  error.luminance = p->luminance;
+  float ratio = low_discrepancy ? variance_ratio(pixels, width, height, x, y, unit) : 1.0f;
+  float own_variance = variance_of_mean(p, unit);
   error.noise = sqrt(ratio * ((1 - NEIGHBOURS_WEIGHT) * own_variance + NEIGHBOURS_WEIGHT * pooled)) / unit;
   error.pooled_noise = sqrt(ratio * bound) / unit;
   error.bias = BIAS_OF_KERNEL * sqrt(fmax(own.mean * own.mean - NOISE_OF_KERNEL_BIAS * noise / windows, 0.0f)) / unit;
-  error.half_difference = half_buffer_difference(p, passes);
+  error.half_difference = p->half_difference;
   if (p->unknown != 0) error.bias = INFINITY;
   return error;
 }
 
-// errors[i] = error of pixel i * stride, for i < count.
-kernel void pixel_errors(global const FilmPixel *film, global PixelError *errors, uint width, uint height,
-                         uint passes, uint stride, uint count, uint low_discrepancy) {
+// What a look at `count` pixels of the film, after so many passes of each half, makes of them. *found is not 0 where any has
+// found a photon.
+kernel void film_statistics(global const FilmPixel *film, global PixelStatistics *pixels, volatile global uint *found,
+                            uint2 passes, uint count) {
   uint i = get_global_id(0);
-  if (i < count) errors[i] = pixel_error(film, width, height, i * stride, passes, low_discrepancy != 0);
+  if (i >= count) return;
+  pixels[i] = pixel_statistics(film + i, passes);
+  if (film[i].missed < 0 && *found == 0) atomic_or(found, 1u);
+}
+
+// errors[i] = error of pixel i * stride, for i < count. With *found = 0 photons are stored of which no pixel has found any:
+// then the error of all is unknown.
+kernel void pixel_errors(global const PixelStatistics *pixels, global PixelError *errors, global const uint *found,
+                         uint width, uint height, uint stride, uint count, uint low_discrepancy) {
+  uint i = get_global_id(0);
+  if (i >= count) return;
+  errors[i] = pixel_error(pixels, width, height, i * stride, low_discrepancy != 0);
+  if (*found == 0) errors[i].bias = INFINITY;
 }

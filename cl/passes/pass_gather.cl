@@ -1,4 +1,5 @@
 // The end of an SPPM pass: photons around each visible point, the pixel's statistics, the film.
+#include "core/film_pixels.cl"
 #include "photons/channel_shifts.cl"
 #include "photons/kernel_area_mean.cl"
 #include "photons/gather.cl"
@@ -141,9 +142,9 @@ kernel void gather_photons(global VisiblePoint *visible_points, global SppmPixel
   radiance.sum /= params.visible_points;
   if (HAS(OUTPUT_LIGHT_PASSES))
     for (uint k = 0; k < LIGHT_PASS_COUNT; ++k) radiance.layer[k] /= params.visible_points;
-  film_add_radiance(film, index, params.width * params.height, &radiance, luminance(kernel_bias.x, kernel_bias.y, kernel_bias.z),
+  film_add_radiance(film, index, film_pixels(&params), &radiance, luminance(kernel_bias.x, kernel_bias.y, kernel_bias.z),
                     params.pass, counters);
-  if (found > 0) film[index].unknown = 0;
+  if (found > 0 && !(film[index].missed < 0)) film[index].missed = -1;
   pixels[index] = params.radius2 > 0 ? sppm_count(pixel, found) : sppm_update(pixel, found, params.alpha);
 }
 

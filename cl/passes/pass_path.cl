@@ -118,14 +118,14 @@ OUTLINE void path_radiance(const Scene *scene, Ray ray, global const PrimaryHit 
 // traced.
 INLINE void sample_pixel(const Scene *scene, const Params *params, uint index, global FilmPixel *film,
                          global const PrimaryHit *primary_hits, uint *rays, volatile global Counters *counters) {
-  uint pixel = params->first_pixel + index;
+  uint of_film = params->first_pixel + index, pixel = picture_pixel(params, of_film);
   PathSampler sampler = chunk_sampler(params, 1u, index);
   global const PrimaryHit *first = primary_hits + index;
   Ray ray = PRIMARY_HITS_FOUND ? first_ray(first)
                              : path_ray(params, pixel % params->width, pixel / params->width, 0, params->sobol != 0);
   Radiance radiance;
   path_radiance(scene, ray, first, &sampler, params->max_depth, &radiance, rays, counters);
-  film_add_radiance(film, pixel, params->width * params->height, &radiance, 0, params->pass, counters);
+  film_add_radiance(film, of_film, film_pixels(params), &radiance, 0, params->pass, counters);
 }
 
 // One sample of each pixel of the chunk. `primary_hits` holds what its paths meet first where the program is built for

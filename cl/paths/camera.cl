@@ -1,5 +1,6 @@
 // Primary rays through a thin lens, for both camera forms of the scene format.
 #include "shapes/ray.cl"
+#include "core/film_pixels.cl"
 #include "shared/effects.h"
 #include "sampling/sobol.cl"
 #include "shared/types.h"
@@ -15,8 +16,8 @@ INLINE real2 camera_stratum(uint index, uint count, real2 u) {
 
 // The numbers of path `index` of the chunk, where every pixel has `samples` of them.
 INLINE PathSampler chunk_sampler(const Params *params, uint samples, uint index) {
-  return path_sampler(params->seed, params->pass, params->first_pixel + index / samples, index % samples, samples,
-                      params->sobol);
+  return path_sampler(params->seed, params->pass, picture_pixel(params, params->first_pixel + index / samples),
+                      index % samples, samples, params->sobol);
 }
 
 // The ray through the film position (x, y) in pixels from the top left; `lens_u` and `lens_v` are uniform.

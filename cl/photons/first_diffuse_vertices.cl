@@ -243,7 +243,7 @@ OUTLINE void diffuse_vertices_store(const Params *params, uint count, const Diff
       point.weight[k] = r->weight[k][i];
       point.radiance[k] = r->radiance[k][i] + (lit ? r->reflected[k][i] : 0);
     }
-    points[(r->pixel[i] - params->first_pixel) * params->visible_points + r->sample[i]] = point;
+    points[(film_pixel(params, r->pixel[i]) - params->first_pixel) * params->visible_points + r->sample[i]] = point;
   }
 }
 

@@ -4,6 +4,7 @@
 // probe a place of their disc, and a pixel divides by the mean of what its last hundred probes found. That mean is common
 // to many passes, so that what it is off by is not in their spread; and dividing by it is right but for its variance over its
 // square: with a hundred probes at a straight edge, 1%.
+#include "core/film_pixels.cl"
 #include "photons/kernel_area_mean.cl"
 #include "photons/grid.cl"
 #include "scene/path_media.cl"
@@ -18,7 +19,7 @@
 
 // Whether visible point number `sample` of the pixel is to probe, and of which radius.
 INLINE bool probe_wanted(const Params *params, global const SppmPixel *pixels, uint pixel, uint sample, real *radius) {
-  global const SppmPixel *state = pixels + pixel;
+  global const SppmPixel *state = pixels + film_pixel(params, pixel);
   bool in_turn = sample == params->pass % params->visible_points;
   if (!params->coverage || !kernel_area_wanted(state->coverage, pixel, params->pass, in_turn)) return false;
   *radius = params->indirect_radius * sqrt(params->radius2 > 0 ? params->radius2 : state->radius2_hi);

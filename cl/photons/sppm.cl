@@ -2,6 +2,17 @@
 #include "film/film.cl"
 #include "shared/types.h"
 
+// Adds x to the unevaluated sum *hi + *lo: the rounding error of each addition (Knuth's TwoSum) is kept, so
+// 10^8 additions lose nothing that matters, where a plain float stops growing.
+INLINE void sum_add(float *hi, float *lo, float x) {
+  float s = *hi + x;
+  float b = s - *hi;
+  float error = (*hi - (s - b)) + (x - b);
+  float tail = *lo + error;
+  *hi = s + tail;
+  *lo = tail - (*hi - s);
+}
+
 // Photons found so far by a pixel, as a number.
 INLINE float sppm_photons(SppmPixel pixel) { return pixel.photons_high * 4294967296.0f + pixel.photons_low; }
 

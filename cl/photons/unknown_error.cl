@@ -7,9 +7,6 @@
 // Flux is added up in units of so many of a photon's record, so that sums of 2^32 hold what a pass can store.
 #define FLUX_SUM_SHIFT 6u
 
-// Less than this, of what the pixel has, may be missing untold.
-#define UNKNOWN_FRACTION 0.01f
-
 // The sums of a cell: one of each way along an axis that a surface may face, and one of the medium.
 #define FACINGS 7u
 #define NO_CELL 0xffffffffu
@@ -38,17 +35,13 @@ kernel void add_flux(global const Photon *photons, volatile global uint *sums, G
   atomic_add(sums + cell, (flux >> FLUX_SUM_SHIFT) + 1u);
 }
 
-// Tells of each pixel of the chunk that has not found any photon so far whether its error is unknown, and adds to *found
-// those that have. `passes` have been added to the film.
-kernel void find_unknown(global const VisiblePoint *points, global const SppmPixel *pixels, global FilmPixel *film,
-                         global const uint *sums, volatile global uint *found, Grid cells, Params params) {
+// Tells each pixel of the chunk that has not found any photon so far how much light those around may bring.
+kernel void find_unknown(global const VisiblePoint *points, global FilmPixel *film, global const uint *sums, Grid cells,
+                         Params params) {
   uint i = get_global_id(0);
   if (i >= params.pixel_count) return;
-  uint index = params.first_pixel + i;
-  if ((pixels[index].photons_low | pixels[index].photons_high) != 0) {
-    atomic_or(found, 1u);
-    return;
-  }
+  global FilmPixel *pixel = film + params.first_pixel + i;
+  if (pixel->missed < 0) return;
   real light = 0, scale = params.photon_flux / PHOTON_FLUX_UNIT * (1u << FLUX_SUM_SHIFT) * cells.origin.w * cells.origin.w;
   for (uint s = 0; s < params.visible_points; ++s) {
     VisiblePoint point = points[i * params.visible_points + s];
@@ -56,13 +49,5 @@ kernel void find_unknown(global const VisiblePoint *points, global const SppmPix
     if (cell == NO_CELL || !(point.weight[0] + point.weight[1] + point.weight[2] > 0)) continue;
     light += luminance(point.weight[0], point.weight[1], point.weight[2]) * sums[cell] * scale / params.visible_points;
   }
-  float passes = params.pass + 1 - film[index].left_out;
-  float mean = luminance(film[index].sum[0], film[index].sum[1], film[index].sum[2]) / fmax(passes, 1.0f);
-  film[index].unknown = light > UNKNOWN_FRACTION * mean ? 1u : 0u;
-}
-
-// Tells it of every pixel: for a picture that has found no photon at all.
-kernel void all_unknown(global FilmPixel *film, uint first, uint count) {
-  uint i = get_global_id(0);
-  if (i < count) film[first + i].unknown = 1;
+  pixel->missed = (float)light;
 }

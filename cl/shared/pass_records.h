@@ -24,7 +24,7 @@
 typedef struct {
   Camera camera;
   uint width, height;        // pixels of the picture
-  uint first_pixel;          // the chunk that this launch works on: pixels [first_pixel, first_pixel +
+  uint first_pixel;          // the chunk that this launch works on: of the film, pixels [first_pixel, first_pixel +
   uint pixel_count;          //   pixel_count) in row order from the top left
   uint seed, pass;
   uint visible_points;       // per pixel per pass
@@ -56,9 +56,11 @@ typedef struct {
   float contact_low[3], contact_high[3];  // the box outside of which dielectrics touch nothing (EFFECT_NESTED)
   float inside_direction[3];  // of the rays by which the dielectrics around a point are found
   uint channel_shifts;       // log2 of what photons carry each channel times: a byte each, red the lowest; see channel_shifts.cl
+  uint crop_x, crop_y;       // of the picture, the pixel that is the film's first
+  uint crop_width, crop_height;  // pixels of the film; 0: of the picture
   uint unused;
 } Params;
-CHECK_SIZE(Params, 304);
+CHECK_SIZE(Params, 320);
 
 #define NESTED_ON 1u        // paths keep the dielectrics that they are in: see path_media.cl
 #define NESTED_CAMERA 2u    // the camera may stand in one

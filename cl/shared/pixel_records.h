@@ -11,18 +11,30 @@ typedef struct {
 } SppmPixel;
 CHECK_SIZE(SppmPixel, 20);
 
-// A pixel's sum of radiance estimates, one per pass, each channel as an unevaluated sum hi + lo, and what tells how
-// far their mean may be off.
+// A pixel's sums over its radiance estimates, one per pass, and what tells how far their mean may be off. All are exact, and
+// the same whatever the order of the passes; what belongs to a half of the passes (half_buffers.cl) has an element for each.
 typedef struct {
-  float sum[3];
-  float low[3];
-  uint left_out;  // estimates that were not finite: the mean is over the others
-  float m2_deviation;   // standard deviation of the estimates' luminance from their mean, over their number
-  float kernel_bias[2];  // what luminance owes to the photons' kernel, the mean of each half of the passes
-  float signed_half_sum;  // sum of the estimates' luminance under changing signs: see sign_of_estimate of film.cl
-  uint unknown;       // 1 where the error of the mean cannot be told: see unknown_error.cl
+  ExactSum radiance[3];
+  ExactSum luminance[2];    // of the upper 14 bits of each estimate's: see squared_bits()
+  ExactSum luminance2;      // of the squares of these
+  ExactSum kernel_bias[2];  // what luminance owes to the photons' kernel
+  uint left_out[2];         // estimates that were not finite: the means are over the others
+  float missed;             // luminance that photons which the pixel does not find may bring, see unknown_error.cl; negative
+                            //   where it has found any
+  uint unused;
 } FilmPixel;
-CHECK_SIZE(FilmPixel, 48);
+CHECK_SIZE(FilmPixel, 144);
+
+// What a look at the film makes of it, in luminance.
+typedef struct {
+  float estimates;        // that the means are over
+  float luminance;        // their mean
+  float deviation;        // their standard deviation from it
+  float kernel_bias[2];   // the mean of each half of the passes
+  float half_difference;  // half by how much the mean of one half is above that of the other, as PixelError has it
+  uint unknown;           // 1 where the error of the mean cannot be told: see unknown_error.cl
+} PixelStatistics;
+CHECK_SIZE(PixelStatistics, 28);
 
 // The layers of a picture, see light_passes.cl.
 #define LIGHT_PASS_DIRECT 0u
@@ -33,10 +45,9 @@ CHECK_SIZE(FilmPixel, 48);
 // A pixel's sums of what belongs to each layer, as FilmPixel has them of the whole. With OUTPUT_LIGHT_PASSES those of all
 // pixels follow the film in its buffer.
 typedef struct {
-  float sum[LIGHT_PASS_COUNT][3];
-  float low[LIGHT_PASS_COUNT][3];
+  ExactSum radiance[LIGHT_PASS_COUNT][3];
 } FilmLightPasses;
-CHECK_SIZE(FilmLightPasses, 72);
+CHECK_SIZE(FilmLightPasses, 144);
 
 // How far a pixel's luminance may be off.
 typedef struct {

@@ -10,13 +10,16 @@
 #include "shared/shapes.h"
 
 #ifdef __OPENCL_VERSION__
+typedef long int64;
 #define CHECK_SIZE(type, size) typedef char type##_has_size_##size[(sizeof(type) == (size)) ? 1 : -1]
 #else
+#include <bit>
 #include <cstdint>
 namespace causticl {
 using uint = std::uint32_t;
 using ushort = std::uint16_t;
 using ulong = std::uint64_t;
+using int64 = std::int64_t;
 struct alignas(8) float2 {
   float x = 0, y = 0;
 };
@@ -35,6 +38,7 @@ struct alignas(16) uint4 {
 // In this order: what a pass is told holds the camera. They are for types.h alone, which gives them their language.
 #include "shared/scene_records.h"
 #include "shared/pass_records.h"
+#include "shared/exact_sum_records.h"
 #include "shared/pixel_records.h"
 #include "shared/photon_records.h"
 #include "shared/wall_records.h"

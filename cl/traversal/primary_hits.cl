@@ -1,6 +1,7 @@
 // Where camera paths begin: their rays and primary hits, found by packets of neighbouring rays where the program is built
 // for that (CAMERA_PACKETS), which is for devices that gain by it. The paths are the same to the bit either way.
 #include "core/diagnostics.cl"
+#include "core/film_pixels.cl"
 #include "traversal/geometry.cl"
 #include "traversal/kdtree_packet.cl"
 
@@ -45,10 +46,10 @@ INLINE void first_rays(const Params *settings, const uint *x, const uint *y, con
 OUTLINE void primary_hits_of(const Geometry *geometry, const Params *params, uint samples, uint index,
                            global PrimaryHit *primary_hits, volatile global Counters *counters) {
   PacketTile tile = packet_tile(samples);
-  uint across = (params->width + tile.width - 1u) / tile.width;
+  uint width = film_width(params), height = film_height(params), across = (width + tile.width - 1u) / tile.width;
   uint part = index % tile.parts, place = index / tile.parts;
   uint left = place % across * tile.width;
-  uint top = (params->first_pixel / params->width / tile.height + place / across) * tile.height;
+  uint top = (params->first_pixel / width / tile.height + place / across) * tile.height;
   uint of_pixel = min(samples, PACKET_RAYS);
   RayPacket rays;
   uint paths[PACKET_RAYS], xs[PACKET_RAYS], ys[PACKET_RAYS], numbers[PACKET_RAYS];
@@ -56,12 +57,12 @@ OUTLINE void primary_hits_of(const Geometry *geometry, const Params *params, uin
   for (uint i = 0; i < PACKET_RAYS; ++i) {
     uint in_tile = i / of_pixel, sample = part * PACKET_RAYS + i % of_pixel;
     uint x = left + in_tile % tile.width, y = top + in_tile / tile.width;
-    uint pixel = y * params->width + x - params->first_pixel;  // wraps around before the first
-    bool has_path = in_tile < tile.width * tile.height && sample < samples && x < params->width &&
-                    y < params->height && pixel < params->pixel_count;
+    uint pixel = y * width + x - params->first_pixel;  // wraps around before the first
+    bool has_path = in_tile < tile.width * tile.height && sample < samples && x < width && y < height &&
+                    pixel < params->pixel_count;
     used |= has_path ? 1u << i : 0u;
     paths[i] = pixel * samples + sample;
-    xs[i] = x, ys[i] = y, numbers[i] = sample;
+    xs[i] = params->crop_x + x, ys[i] = params->crop_y + y, numbers[i] = sample;
   }
   first_rays(params, xs, ys, numbers, &rays);
   if (HAS(EFFECT_PLANES)) {

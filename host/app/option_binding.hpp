@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,7 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/options.hpp"
 #include "base/spelling.hpp"
+#include "film/pass_set.hpp"
 #include "format/load_scene.hpp"
 #include "format/option_values.hpp"
 #include "scene/integrators.hpp"
@@ -36,6 +40,16 @@ inline std::optional<std::uint64_t> parse_bytes(std::string text) {
   const auto value = number<std::uint64_t>(text);
   if (!value || *value == 0 || *value > std::uint64_t{1} << (50 - shift)) return {};
   return *value << shift;
+}
+
+/// "1:64": numbers of passes that count from 1, both included.
+inline std::optional<PassRange> parse_pass_range(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return {};
+  const auto first = number<std::int64_t>(text.substr(0, colon)),
+             last = number<std::int64_t>(text.substr(colon + 1));
+  if (!first || !last || *first < 1 || *last < *first || *last >= largest_int) return {};
+  return PassRange{static_cast<std::uint64_t>(*first - 1), static_cast<std::uint64_t>(*last)};
 }
 
 inline std::optional<std::pair<int, int>> parse_size(const std::string& text) {
@@ -163,6 +177,35 @@ inline OptionText<ImageLimits> image_memory_text() {
             if (!bytes) return {};
             return ImageLimits{*bytes, true};
           }};
+}
+
+inline std::optional<CropText> parse_crop(const std::string& text) {
+  CropText crop{{}, text.find('.') != std::string::npos};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t end = i < 3 ? text.find(',', begin) : text.size();
+    if (end == std::string::npos) return {};
+    const auto edge = number<double>(text.substr(begin, end - begin));
+    const double highest = crop.is_fraction ? 1 : largest_extent;
+    if (!edge || !(*edge >= 0) || *edge > highest || (!crop.is_fraction && *edge != std::floor(*edge)))
+      return {};
+    crop.edge[i] = *edge;
+    begin = end + 1;
+  }
+  if (!(crop.edge[0] < crop.edge[2]) || !(crop.edge[1] < crop.edge[3])) return {};
+  return crop;
+}
+
+inline OptionText<CropText> crop_text() {
+  return {"x0,y0,x1,y1",
+          "x0,y0,x1,y1, the left, top, right and bottom edge in pixels, as in 0,0,320,240, or as fractions "
+          "with a "
+          "decimal point, as in 0.0,0.0,0.5,0.5",
+          parse_crop};
+}
+
+inline OptionText<PassRange> pass_range_text() {
+  return {"A:B", "A:B, the first and the last of some passes, as in 1:64", parse_pass_range};
 }
 
 inline OptionText<std::string> folder_text() {

@@ -17,6 +17,9 @@ void add_render_options(CLI::App& app, Options& options);
 void add_device_options(CLI::App& app, Options& options, unsigned& threads, std::string& kernel_dir,
                         bool takes_several = false);
 
+/// What `merge` puts together, and where that goes.
+void add_merge_options(CLI::App& app, Options& options);
+
 /// Which checks `selftest` runs, on what.
 void add_selftest_options(CLI::App& app, Options& options);
 

@@ -40,6 +40,11 @@ void add_commands(CLI::App& app, Options& options) {
       "Ctrl-C, SIGTERM and SIGHUP finish the pass and write the image; a second one stops at once.\n" +
       exit_codes);
   add_image_options(render, options);
+  CLI::App& merge = *app.add_subcommand("merge", "Put parts of a render together: passes and crops");
+  add_merge_options(merge, options);
+  merge.footer(
+      "Films of the same pixels are added up, which their renders must allow; crops are put side by side.\n"
+      "The result has the bits of one render of all passes and pixels.");
   CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices of this machine");
   devices.footer("The number in front of a device is its index for `causticl render --device`.");
   CLI::App& info = *app.add_subcommand("info", "Say what a scene holds; needs no device");
@@ -80,10 +85,11 @@ void add_commands(CLI::App& app, Options& options) {
 }
 
 constexpr std::pair<const char*, Options::Command> commands[]{
-    {"render", Options::Command::render},   {"devices", Options::Command::devices},
-    {"info", Options::Command::info},       {"schema", Options::Command::schema},
-    {"explain", Options::Command::explain}, {"compare", Options::Command::compare},
-    {"study", Options::Command::study},     {"selftest", Options::Command::selftest}};
+    {"render", Options::Command::render},    {"merge", Options::Command::merge},
+    {"devices", Options::Command::devices},  {"info", Options::Command::info},
+    {"schema", Options::Command::schema},    {"explain", Options::Command::explain},
+    {"compare", Options::Command::compare},  {"study", Options::Command::study},
+    {"selftest", Options::Command::selftest}};
 
 /// Throws UserError for options that do not go together.
 void check_together(const Options& options) {
@@ -93,6 +99,16 @@ void check_together(const Options& options) {
     throw UserError(
         "--triangle-test precomputed: its transforms are stored in single precision; expected --precision "
         "float");
+  if (!options.checkpoint.empty() && !options.film.empty())
+    throw UserError("--film and --checkpoint: both write the film in the end; expected one of them");
+  if (options.command == Options::Command::merge && options.render.outputs.empty() && options.film.empty())
+    throw UserError("merge: where does the whole go? expected -o FILE for a picture, or --film FILE");
+  if (options.checkpoint_interval && options.checkpoint.empty() && options.render.film.resume.empty())
+    throw UserError(
+        "--every: says how often --checkpoint writes its film; expected --checkpoint FILE with it");
+  if (options.render.film.range && options.render.wanted_error)
+    throw UserError(
+        "--pass-range and --error: a part has a number of passes of its own; leave one of them out");
 }
 
 }  // namespace

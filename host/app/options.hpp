@@ -1,8 +1,10 @@
 // The command line: what the user asked for, checked, and what it changes in a scene.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,15 @@ struct RendererOption {
   std::function<void(RendererSpec&)> apply;
 };
 
+/// What --crop was given: pixels, or where there is a decimal point fractions of the picture.
+struct CropText {
+  std::array<double, 4> edge;  // left, top, right, bottom
+  bool is_fraction;
+};
+
 /// What the user asked for. Values that others use stand where they take them from.
 struct Options {
-  enum class Command { render, compare, devices, explain, info, schema, study, selftest, print };
+  enum class Command { render, merge, compare, devices, explain, info, schema, study, selftest, print };
   Command command = Command::print;
   std::string text;  // Command::print: the help or version that was asked for
 
@@ -36,11 +44,16 @@ struct Options {
   SceneOptions scene_options;
   std::vector<RendererOption> renderer_options;
 
-  RenderOptions render;      // without outputs where the scene says them
+  RenderOptions render;                       // without outputs where the scene says them
+  std::string checkpoint, film;               // files; empty: none
+  std::optional<double> checkpoint_interval;  // seconds
+  std::optional<CropText> crop;
   std::string device;        // as find_device takes it
   bool keep_kernels = true;  // from one run to the next
   bool quiet = false, stats = false;
   std::string stats_json;  // file; empty: none
+
+  std::vector<std::string> films;  // files; merge
 
   std::string picture, reference;  // files; compare
   std::string error_map;           // file; empty: none

@@ -56,6 +56,26 @@ void add_output_options(CLI::App& app, Options& options) {
             "1 by default; the same seed gives the same image to the bit");
 }
 
+/// The film file, from which a render goes on and by which parts are put together.
+void add_film_options(CLI::App& app, Options& options) {
+  FilmOptions& film = options.render.film;
+  add_text(
+      app, "--checkpoint", options.checkpoint, "FILE",
+      "keep all that was rendered so far in this film while passes go\non, so that --resume goes on from it");
+  add_value(app, "--every", options.checkpoint_interval, duration_text(),
+            "how often --checkpoint writes its film; 60 s by default");
+  add_text(
+      app, "--resume", film.resume, "FILE",
+      "go on from a film: more passes, other limits. Also keeps the\nnew passes there, as --checkpoint does");
+  add_value(app, "--pass-range", film.range, pass_range_text(),
+            "render these passes alone, as 65:128; for `causticl merge`");
+  add_value(app, "--crop", options.crop, crop_text(),
+            "render these pixels alone: left, top, right and bottom edge in\npixels, or with a decimal point "
+            "as fractions "
+            "of the picture");
+  add_text(app, "--film", options.film, "FILE", "write the film in the end: a part for `causticl merge`");
+}
+
 /// How it computes.
 void add_method_options(CLI::App& app, RenderOptions& render) {
   add_text(app, "--effects", render.effects, "auto|all|LIST",
@@ -88,6 +108,7 @@ void add_report_options(CLI::App& app, Options& options) {
 
 void add_render_options(CLI::App& app, Options& options) {
   add_output_options(app, options);
+  add_film_options(app, options);
   add_method_options(app, options.render);
   add_device_options(app, options, options.render.threads, options.render.kernel_dir, true);
   add_report_options(app, options);

@@ -100,6 +100,24 @@ void write_file(const std::string& file, const std::string& bytes) {
   }
 }
 
+void write_file_synced(const std::string& file, const std::vector<std::string_view>& pieces) {
+  const fs::path target = link_target(file);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  try {
+    TemporaryFile temporary(folder);
+    for (const auto& piece : pieces) temporary.write(piece);
+    temporary.sync();
+    temporary.rename_to(target);
+  } catch (const std::system_error& fault) {
+    fail(file, fault.code().message());
+  }
+  // The name is kept by the folder. Where that cannot be synced, the file is none the worse.
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
 void write_file_or_keep(const std::string& file, const std::string& bytes) {
   try {
     write_file(file, bytes);

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace causticl {
 
@@ -17,6 +19,10 @@ std::filesystem::path link_target(const std::string& file);
 /// Writes to a temporary name in the folder of `file`, then renames; a link stays a link, also one to a file
 /// that does not exist yet, and a device or pipe is written to directly. Throws UserError.
 void write_file(const std::string& file, const std::string& bytes);
+
+/// Writes these pieces one after the other as write_file() does, and has them on the disk before the file
+/// gets its name: after a loss of power there is the old file or the new one. Throws UserError.
+void write_file_synced(const std::string& file, const std::vector<std::string_view>& pieces);
 
 /// As write_file(), but bytes that find no room there are kept under a new name beside `file`, or else in the
 /// temporary folder. Throws UserError, which says where they are.

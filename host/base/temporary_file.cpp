@@ -76,7 +76,7 @@ class Candidate {
 
 }  // namespace
 
-int write_all(int descriptor, const std::string& bytes) {
+int write_all(int descriptor, std::string_view bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno != EINTR) return errno;
@@ -105,7 +105,12 @@ TemporaryFile::~TemporaryFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void TemporaryFile::write(const std::string& bytes) {
+void TemporaryFile::sync() {
+  // Some file systems cannot.
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(errno);
+}
+
+void TemporaryFile::write(std::string_view bytes) {
   if (const int fault = write_all(descriptor_, bytes); fault != 0) fail(fault);
 }
 

@@ -3,11 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace causticl {
 
 /// Writes all of `bytes`. Returns 0, or the error number.
-int write_all(int descriptor, const std::string& bytes);
+int write_all(int descriptor, std::string_view bytes);
 
 /// A new file in a folder, gone again unless it is renamed. It is locked (flock(2)) until then, and its name
 /// is one that no other process uses, whatever its number. Throws std::system_error.
@@ -18,7 +19,9 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write(const std::string& bytes);
+  void write(std::string_view bytes);
+  /// Waits until what was written is on the disk.
+  void sync();
   void rename_to(const std::filesystem::path& target);
 
  private:

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device_scene/diagnostics.hpp"
+#include "film/film_file.hpp"
 #include "image/image.hpp"
 #include "photons/metropolis_statistics.hpp"
 #include "shared/types.h"
@@ -34,8 +35,19 @@ class PassIntegrator {
  public:
   virtual ~PassIntegrator() = default;
 
-  /// Enqueues pass number `pass` (from 0). Passes run in order.
+  /// Enqueues pass number `pass` (from 0). Passes run in order, from 0 or from where go_on() said.
   virtual void enqueue_pass(std::uint32_t pass) = 0;
+
+  /// What it keeps from pass to pass beside the film; of which each device has its own pixels, if there are
+  /// several. Blocks whose name ends in ".pixels" hold as many bytes of each pixel. Waits for the queue.
+  virtual IntegratorState state() { return {}; }
+  /// The passes up to `next_pass` have been rendered elsewhere, and left this; empty where passes before are
+  /// to have no part in what follows. Before the first enqueue_pass().
+  virtual void go_on(const IntegratorState&, std::uint32_t next_pass) { (void)next_pass; }
+  /// Why a pass depends on the passes before it: each reason with the option that turns it off.
+  virtual std::vector<std::string> depends_on_history() const { return {}; }
+  /// Why a pixel depends on the others, with the option that turns it off; empty where it does not.
+  virtual std::string depends_on_other_pixels() const { return ""; }
 
   /// From now on, only this fraction of the pixels and photons of a pass.
   void set_fraction(PassFraction fraction) { fraction_ = fraction; }

@@ -6,7 +6,7 @@
 
 #include "accuracy/error_estimate.hpp"
 #include "device_scene/device_scene.hpp"
-#include "integrators/film.hpp"
+#include "film/film.hpp"
 #include "integrators/integrator.hpp"
 #include "opencl/programs.hpp"
 #include "photons/pilot.hpp"

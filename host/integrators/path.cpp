@@ -47,6 +47,7 @@ PathTracer::PathTracer(const IntegratorInputs& in)
       primary_hit_buffer_(in.device.buffer(primary_hit_bytes_, "first hits")),
       primary_hits_(in.programs, "path", in.device_scene, counters_) {
   device_.clear(counters_, sizeof(Counters));
+  film_.set_pixels(params_);
   first_argument_ = set_scene_arguments(trace_paths_, in.device_scene);
   trace_paths_.setArg(first_argument_, film_.buffer());
   trace_paths_.setArg(first_argument_ + 1, counters_);

@@ -17,9 +17,10 @@ uint packet_count(const Params& params, uint samples) {
                       : samples <= 4 ? 2
                                      : 1;
   const uint parts = (samples + packet_rays - 1) / packet_rays;
-  const uint first_row = params.first_pixel / params.width / height;
-  const uint last_row = (params.first_pixel + params.pixel_count - 1) / params.width / height;
-  return (params.width + width - 1) / width * (last_row - first_row + 1) * parts;
+  const uint row = params.crop_width != 0 ? params.crop_width : params.width;
+  const uint first_row = params.first_pixel / row / height;
+  const uint last_row = (params.first_pixel + params.pixel_count - 1) / row / height;
+  return (row + width - 1) / width * (last_row - first_row + 1) * parts;
 }
 
 }  // namespace

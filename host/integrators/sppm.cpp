@@ -57,6 +57,7 @@ Sppm::Sppm(const IntegratorInputs& in)
   params_.shadow_rays = spec_.direct_light == DirectLight::shadow_rays && params_.emitter_count > 0;
   params_.coverage = spec_.boundary_correction && with_photons_;
   params_.alpha = static_cast<float>(spec_.alpha);
+  film_.set_pixels(params_);
   params_.indirect_radius = static_cast<float>(indirect_radius(spec_));
 
   chunk_pixels_ = std::clamp<std::size_t>(launch_chunk(device_) / params_.visible_points, 1, film_.pixels());
@@ -175,6 +176,7 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
   const double radius = std::sqrt(schedule_radius2_);
   photon_map_.sort(radius, radius * indirect_radius(spec_));
   params_.segment = segment(radius);
+  if (photon_map_.stored() > 0) film_.set_photons_stored();
   const bool look_for_unknown = with_photons_ && unknown_.due(pass);
   if (look_for_unknown) unknown_.begin(photon_map_.records_buffer(), photon_map_.stored());
 
@@ -188,9 +190,8 @@ void Sppm::enqueue_pass(std::uint32_t pass) {
                   photon_map_.sorted(), counters_, photon_map_.grids(), params_, walls_);
     device_.launch_pass(gather_photons_, params_.pixel_count);
     guide_.mark(points, std::size_t{params_.pixel_count} * params_.visible_points, pass);
-    if (look_for_unknown) unknown_.find(points, pixels_, film_.buffer(), params_);
+    if (look_for_unknown) unknown_.find(points, film_.buffer(), params_);
   }
-  if (look_for_unknown) unknown_.finish(film_.buffer(), fraction_.first_of(film_.pixels()), end);
   advance_schedule(pass);
 }
 
@@ -204,7 +205,7 @@ PassIntegrator::Totals Sppm::finish() {
 std::vector<Channel> Sppm::channels() {
   // One radius for all is that of the pass to come; photons are counted for radii of their own alone.
   const bool own_radii = spec_.schedule == Schedule::pixel;
-  const auto pixels = device_.download<SppmPixel>(pixels_, film_.pixels());
+  const auto pixels = film_.cropped(device_.download<SppmPixel>(pixels_, film_.pixels()));
   std::vector<Channel> channels{{"sppm.radius", std::vector<float>(pixels.size())}};
   for (std::size_t i = 0; i < pixels.size(); ++i)
     channels[0].values[i] =

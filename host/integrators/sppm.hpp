@@ -6,7 +6,7 @@
 
 #include "device_scene/device_scene.hpp"
 #include "device_scene/motion.hpp"
-#include "integrators/film.hpp"
+#include "film/film.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/integrators.hpp"
 #include "integrators/primary_hits.hpp"
@@ -28,6 +28,10 @@ class Sppm : public PassIntegrator {
     photon_map_.set_records(photons);
   }
   Totals finish() override;
+  IntegratorState state() override;
+  void go_on(const IntegratorState& state, std::uint32_t next_pass) override;
+  std::vector<std::string> depends_on_history() const override;
+  std::string depends_on_other_pixels() const override;
   /// sppm.N, sppm.radius and sppm.photons: N and R of the paper, and the photons found.
   std::vector<Channel> channels() override;
   double bytes_per_pixel() const override;

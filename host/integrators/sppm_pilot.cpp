@@ -75,13 +75,14 @@ std::optional<Vec3> position_of(const std::byte* record, bool in_double) {
 
 }  // namespace
 
-/// Of the coarse picture: one path a pixel.
+/// Of the coarse picture: one path a pixel, of the whole also where the film holds a crop.
 Params Sppm::pilot_params() const {
   Params params = params_;
   params.coverage = 0;  // pixels have no radius yet
   const uint longer = std::max(params.width, params.height);
   params.width = std::max(1u, std::min(longest_side, longer) * params.width / longer);
   params.height = std::max(1u, std::min(longest_side, longer) * params.height / longer);
+  params.crop_x = params.crop_y = params.crop_width = params.crop_height = 0;
   params.visible_points = 1;
   params.first_pixel = 0;
   params.pixel_count = params.width * params.height;

@@ -24,33 +24,22 @@ void UnknownError::set_view(const Surroundings& around) {
   cells_ = {{low(0), low(1), low(2), static_cast<float>(1 / cell)}, count(0), count(1), count(2), 0};
   sums_ =
       device_.buffer(sums_of_a_cell * cells_.nx * cells_.ny * cells_.nz * sizeof(cl_uint), "sums of flux");
-  found_ = device_.buffer(sizeof(cl_uint), "sums of flux");
 }
 
 void UnknownError::begin(const cl::Buffer& photons, std::uint32_t count) {
   if (!add_flux_()) {
     add_flux_ = programs_.kernel("gather", "add_flux");
     find_unknown_ = programs_.kernel("gather", "find_unknown");
-    all_unknown_ = programs_.kernel("gather", "all_unknown");
   }
-  photons_ = count;
   device_.clear(sums_, sums_.getInfo<CL_MEM_SIZE>());
-  device_.clear(found_, sizeof(cl_uint));
   if (count == 0) return;
   set_arguments(add_flux_, photons, sums_, cells_, static_cast<cl_uint>(count));
   device_.launch_pass(add_flux_, count);
 }
 
-void UnknownError::find(const cl::Buffer& points, const cl::Buffer& pixels, const cl::Buffer& film,
-                        const Params& params) {
-  set_arguments(find_unknown_, points, pixels, film, sums_, found_, cells_, params);
+void UnknownError::find(const cl::Buffer& points, const cl::Buffer& film, const Params& params) {
+  set_arguments(find_unknown_, points, film, sums_, cells_, params);
   device_.launch_pass(find_unknown_, params.pixel_count);
-}
-
-void UnknownError::finish(const cl::Buffer& film, std::size_t first, std::size_t end) {
-  if (photons_ == 0 || first == end || device_.download<cl_uint>(found_, 1)[0] != 0) return;
-  set_arguments(all_unknown_, film, static_cast<cl_uint>(first), static_cast<cl_uint>(end - first));
-  device_.launch_pass(all_unknown_, end - first);
 }
 
 }  // namespace causticl

@@ -21,18 +21,14 @@ class UnknownError {
   /// Adds up the flux of the `count` photons of a pass. Before these make room for visible points.
   void begin(const cl::Buffer& photons, std::uint32_t count);
   /// Looks at the pixels of a chunk after their gathering.
-  void find(const cl::Buffer& points, const cl::Buffer& pixels, const cl::Buffer& film, const Params& params);
-  /// After the last chunk, of pixels [first, end): where photons are stored and none has been found by any,
-  /// the error of all is unknown.
-  void finish(const cl::Buffer& film, std::size_t first, std::size_t end);
+  void find(const cl::Buffer& points, const cl::Buffer& film, const Params& params);
 
  private:
   Device& device_;
   Programs& programs_;
   Grid cells_{};
-  std::uint32_t photons_ = 0;
-  cl::Buffer sums_, found_;
-  cl::Kernel add_flux_, find_unknown_, all_unknown_;
+  cl::Buffer sums_;
+  cl::Kernel add_flux_, find_unknown_;
 };
 
 }  // namespace causticl

@@ -1,11 +1,17 @@
 #include "photons/metropolis_photons.hpp"
 
 #include <algorithm>
+#include <cstring>
 
+#include "base/error.hpp"
 #include "device_scene/space_grid.hpp"
 
 namespace causticl {
 namespace {
+
+// Blocks of a film file.
+const char* const visibility_block = "guide.visibility";
+const char* const next_block = "guide.next_pass";
 
 constexpr double pilot_fraction = 0.75;  // of a pass's photons
 constexpr double most_buckets = 1 << 22;
@@ -66,6 +72,24 @@ void MetropolisPhotons::add_arguments(cl::Kernel& trace_photons, cl_uint first) 
 void MetropolisPhotons::set_emission(const std::vector<EmissionCell>& cells) {
   emission_ = device_.upload(cells, "emission map");
   emission_count_ = static_cast<cl_uint>(cells.size());
+}
+
+void MetropolisPhotons::save(std::map<std::string, std::vector<std::byte>>& state) const {
+  if (!is_guided()) return;
+  state[visibility_block] = device_.download<std::byte>(visibility_, visibility_bytes(cells_));
+  std::vector<std::byte>& next = state[next_block];
+  next.resize(sizeof next_guided_);
+  std::memcpy(next.data(), &next_guided_, sizeof next_guided_);
+}
+
+void MetropolisPhotons::restore(const std::map<std::string, std::vector<std::byte>>& state) {
+  const auto visibility = state.find(visibility_block), next = state.find(next_block);
+  if (!is_guided() || visibility == state.end() || next == state.end()) return;
+  if (visibility->second.size() != visibility_bytes(cells_) || next->second.size() != sizeof next_guided_)
+    throw UserError("the film does not hold where photons are guided in this scene; render it again");
+  device_.queue().enqueueWriteBuffer(visibility_, CL_TRUE, 0, visibility->second.size(),
+                                     visibility->second.data());
+  std::memcpy(&next_guided_, next->second.data(), sizeof next_guided_);
 }
 
 void MetropolisPhotons::set_radius(double radius) {

@@ -2,8 +2,11 @@
 // visibility grid, and how many of a pass's photons are pilot paths.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "device_scene/device_scene.hpp"
@@ -36,6 +39,12 @@ class MetropolisPhotons {
 
   /// As last found.
   std::optional<MetropolisStatistics> seeds() const { return current_paths_found_; }
+
+  /// Whether they are, in some passes.
+  bool is_guided() const { return pilot_paths_ > 0; }
+  /// What passes have learned, for later ones.
+  void save(std::map<std::string, std::vector<std::byte>>& state) const;
+  void restore(const std::map<std::string, std::vector<std::byte>>& state);
 
   /// From now on photons are guided. With kernels of EFFECT_GUIDED_PHOTONS.
   void guide();

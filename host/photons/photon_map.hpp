@@ -52,6 +52,7 @@ class PhotonMap {
   std::uint32_t stored() const { return stored_; }
   /// Photons of all passes that found no room.
   std::uint64_t dropped() const { return dropped_; }
+  void forget_dropped() { dropped_ = 0; }
   const PhotonGrids& grids() const { return grids_; }
   const cl::Buffer& starts() const { return starts_; }
   const cl::Buffer& sorted() const { return sorted_; }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "accuracy/error_estimate.hpp"
-#include "integrators/film.hpp"
+#include "film/film.hpp"
 #include "scene/scene.hpp"
 
 namespace causticl {
@@ -24,6 +24,9 @@ class ConvergenceCheck {
   /// to see when the error is small enough, seldom enough to cost next to nothing, and by the number of
   /// passes alone, so that the same render stops at the same pass.
   void update(std::uint64_t passes);
+
+  /// `passes` passes have been rendered elsewhere, and looked at as here.
+  void skip(std::uint64_t passes);
 
   /// The error of the picture at the last look; none before the second pass, and none of a black picture.
   const std::optional<PictureError>& last() const { return trend_.last(); }

@@ -14,8 +14,9 @@ void explain_pilot(Explanation& explanation, const Scene& scene, Device& device,
       compiled, options.precision,
       (compiled & EFFECT_TRIANGLES) != 0 ? options.triangle_test : TriangleTest::watertight,
       options.kernel_dir, options.dump_kernels};
-  RenderDevice on(device, scene, kernels, RayChoice{options.camera_rays, options.photon_rays},
-                  passes_to_run(explanation.passes), options.threads);
+  RenderDevice on(device, scene, crop_of(scene, options), kernels,
+                  RayChoice{options.camera_rays, options.photon_rays}, passes_to_run(explanation.passes),
+                  options.threads);
   const auto integrator =
       make_integrator({scene, on.scene, on.device, on.film, on.programs, options.seed, true});
   if (const Pilot* pilot = integrator->pilot())

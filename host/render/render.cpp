@@ -121,7 +121,12 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   auto plan = plan_passes(scene);
   if (!options.skip_passes)
     for (auto& pass : plan) pass.skipped.clear();
+  FilmSession session(scene, options);
+  if (notice && session.earlier()) notice(session.notice(statistics.device));
   if (passes_to_run(plan).empty()) {
+    if (!options.film.file.empty())
+      throw UserError(
+          "nothing emits light, so that there is no film to write: leave out --film and --checkpoint");
     statistics.pass_programs = pass_statistics(plan, {}, effects);
     if (notice) notice("nothing emits light: the picture is black");
     return black_picture(scene, options, statistics);
@@ -134,7 +139,7 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   std::vector<std::unique_ptr<RenderDevice>> parts;
   parts.reserve(devices.size());
   for (Device* device : devices)
-    parts.push_back(std::make_unique<RenderDevice>(*device, scene, kernels,
+    parts.push_back(std::make_unique<RenderDevice>(*device, scene, crop_of(scene, options), kernels,
                                                    RayChoice{options.camera_rays, options.photon_rays},
                                                    passes_to_run(plan), options.threads));
   if (notice && !parts.front()->programs.first_is_built_within(patience))
@@ -150,7 +155,8 @@ RenderResult render_scene(const Scene& scene, const std::vector<Device*>& device
   if (parts.size() > 1) several = std::make_unique<SeveralDevices>(parts);
   PassIntegrator& integrator = several ? static_cast<PassIntegrator&>(*several) : *first.integrator;
 
-  RenderLoop loop(scene, options, first.film, integrator, statistics, start);
+  session.restore(parts, integrator);
+  RenderLoop loop(scene, options, first.film, integrator, session, statistics, start);
   std::function<std::string()> fractions;
   if (several) fractions = [&] { return several->fractions_text(); };
   loop.run({progress, notice, interrupted}, fractions);

@@ -12,6 +12,7 @@
 #include "accel/triangle_transforms.hpp"
 #include "accuracy/error_estimate.hpp"
 #include "device_scene/diagnostics.hpp"
+#include "film/film_file.hpp"
 #include "image/image.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/primary_hits.hpp"
@@ -29,13 +30,24 @@ struct Snapshot {
   const Picture& picture;
 };
 
+/// The film file of a render, and which part of the picture's passes and pixels it adds.
+struct FilmOptions {
+  std::string file;                // written in the end; empty: none
+  std::optional<double> every;     // seconds after which it is written while passes go on as well
+  std::string resume;              // a film to go on from; empty: none
+  std::optional<PixelRect> crop;   // these pixels alone
+  std::optional<PassRange> range;  // these passes alone, in place of those that the scene wants
+  RenderIdentity identity;         // of the render: films of another are refused
+};
+
 /// What bounds a render and where its picture goes.
 struct RenderOptions {
   std::vector<std::string> outputs;    // files, by extension; rewritten at checkpoints
   std::optional<double> time_limit;    // seconds from the start of render_scene
   std::optional<double> wanted_error;  // stop at this estimated error of the picture
   double confidence = 0.9;             // fraction of pixels that the error of the picture is to hold for
-  bool layers = false;                 // also its layers direct, caustic and indirect, as channels
+  FilmOptions film;
+  bool layers = false;  // also its layers direct, caustic and indirect, as channels
   std::uint32_t seed = 1;
   Precision precision = Precision::float32;
   TriangleTest triangle_test = TriangleTest::watertight;
@@ -85,8 +97,9 @@ struct Statistics {
   double kernel_build_seconds = 0;    // of all programs
   std::uint64_t cached_programs = 0;  // those that an earlier run had compiled
   std::vector<PassStatistics> pass_programs;
-  double pass_seconds = 0;   // of the passes alone, without start-up, writing and snapshots
-  double error_seconds = 0;  // looking at the error of the picture, while passes go on
+  double pass_seconds = 0;       // of the passes alone, without start-up, writing and snapshots
+  double film_stop_seconds = 0;  // how long passes stood still at most for the film to be written
+  double error_seconds = 0;      // looking at the error of the picture, while passes go on
   double tree_build_seconds = 0;
   std::string camera_rays;  // how they find what they meet first, on each device
   std::string photon_rays;  // how they find what they meet; empty where there are none
@@ -110,8 +123,13 @@ struct Statistics {
 struct RenderResult {
   Picture picture;
   Statistics statistics;
-  std::vector<UnwrittenPicture> unwritten;  // of RenderOptions::outputs, in the end
+  std::vector<UnwrittenPicture> unwritten;  // of RenderOptions::outputs and the film, in the end
 };
+
+/// The pixels that a render computes.
+inline PixelRect crop_of(const Scene& scene, const RenderOptions& options) {
+  return options.film.crop.value_or(PixelRect{0, 0, scene.width, scene.height});
+}
 
 /// As many passes as it takes: what a renderer's `passes` or `samples` hold where an error alone ends the
 /// render.

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "film/film.hpp"
 #include "image/image.hpp"
-#include "integrators/film.hpp"
 #include "integrators/integrator.hpp"
 #include "render/checkpoints.hpp"
 #include "render/convergence.hpp"
+#include "render/film_session.hpp"
 #include "render/render.hpp"
 
 namespace causticl {
@@ -28,7 +29,7 @@ class RenderLoop {
 
   /// `start` is when the render began. The loop keeps `statistics` up to date.
   RenderLoop(const Scene& scene, const RenderOptions& options, Film& film, PassIntegrator& integrator,
-             Statistics& statistics, Clock::time_point start);
+             FilmSession& session, Statistics& statistics, Clock::time_point start);
 
   /// `first_pass_note` says what is told after the first pass; empty: nothing.
   void run(const RenderListeners& listeners, const std::function<std::string()>& first_pass_note);
@@ -41,25 +42,32 @@ class RenderLoop {
   const RenderOptions& options_;
   Film& film_;
   PassIntegrator& integrator_;
+  FilmSession& session_;
   Statistics& statistics_;
   const Clock::time_point start_;
   Clock::time_point loop_start_;
-  const std::uint64_t wanted_;  // passes
-  const bool endless_;          // as many as the wanted error takes
+  const PassRange range_;  // of the passes of this run
+  const bool endless_;     // as many as the wanted error takes
   const bool with_channels_;
-  PassIntegrator::Totals totals_;
+  PassIntegrator::Totals totals_;  // of earlier runs too
   Checkpoints checkpoints_;
   ConvergenceCheck convergence_;
   double recent_pass_ = 0;  // seconds; the longer of the last two: the first compiles kernels
   double last_pass_ = 0;
   double longest_write_ = 0;
 
+  /// Takes note of what earlier runs have done.
+  void count_earlier();
+  /// Passes so far, of earlier runs too.
+  std::uint64_t passes() const { return statistics_.passes; }
   /// Runs pass number `pass` and looks at the error.
   void run_pass(std::uint64_t pass);
-  /// Where the render stands after `passes`.
-  Progress progress_after(std::uint64_t passes) const;
-  /// Whether it ends after `passes`, which are fewer than were wanted; then `statistics` says why.
-  bool ends_after(std::uint64_t passes, const std::function<bool()>& interrupted);
+  /// Where the render stands before pass number `next`.
+  Progress progress_before(std::uint64_t next) const;
+  /// Whether it ends before pass number `next`; then `statistics` says why.
+  bool ends_before(std::uint64_t next, const std::function<bool()>& interrupted);
+  /// Writes the film and the outputs where they are due.
+  void write_checkpoints(const std::function<void(const std::string&)>& notice);
   std::vector<UnwrittenPicture> write(Picture& picture, Unwritable unwritable);
 };
 

@@ -35,14 +35,15 @@ bool low_discrepancy_and_negatively_correlated(const Scene& scene, const std::ve
 
 }  // namespace
 
-RenderDevice::RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
-                           const std::vector<std::string>& passes, unsigned threads)
+RenderDevice::RenderDevice(Device& on, const Scene& what, const PixelRect& crop, const KernelOptions& kernels,
+                           RayChoice rays, const std::vector<std::string>& passes, unsigned threads)
     : device(on),
       times_before(on.kernel_times()),
       kept_before(on.cached_programs()),
       programs(on, with_rays(kernels, rays, what, on), passes),
       scene(update_device_scene(what, on, threads, kernels.triangle_test)),
-      film(on, programs, what.width, what.height, low_discrepancy_and_negatively_correlated(what, passes)) {}
+      film(on, programs, what.width, what.height, crop,
+           low_discrepancy_and_negatively_correlated(what, passes)) {}
 
 std::map<std::string, KernelTime> RenderDevice::kernel_times() const {
   auto times = device.kernel_times();
@@ -63,12 +64,13 @@ SeveralDevices::SeveralDevices(const std::vector<std::unique_ptr<RenderDevice>>&
 }
 
 void SeveralDevices::enqueue_pass(std::uint32_t pass) {
-  if (pass == 0) {
-    for_each(devices_, [](RenderDevice& d) {
-      d.integrator->enqueue_pass(0);
+  if (!shared_) {
+    for_each(devices_, [pass](RenderDevice& d) {
+      d.integrator->enqueue_pass(pass);
       d.device.queue().finish();
     });
     assign_fractions();
+    shared_ = true;
     return;
   }
   for_each(devices_, [pass](RenderDevice& d) { d.integrator->trace_own_photons(pass); });
@@ -135,6 +137,24 @@ std::vector<Channel> SeveralDevices::channels() {
     }
   }
   return channels;
+}
+
+IntegratorState SeveralDevices::state() {
+  IntegratorState whole = devices_[0]->integrator->state();
+  const std::size_t pixels = devices_[0]->film.pixels();
+  for (std::size_t i = 1; i < devices_.size(); ++i)
+    for (const auto& [name, own] : devices_[i]->integrator->state()) {
+      if (!name.ends_with(".pixels")) continue;
+      const std::size_t record = own.size() / pixels;
+      const auto first = static_cast<std::ptrdiff_t>(fractions_[i].first_of(pixels) * record);
+      const auto end = static_cast<std::ptrdiff_t>(fractions_[i].end_of(pixels) * record);
+      std::copy(own.begin() + first, own.begin() + end, whole[name].begin() + first);
+    }
+  return whole;
+}
+
+void SeveralDevices::go_on(const IntegratorState& state, std::uint32_t next_pass) {
+  for (RenderDevice* device : devices_) device->integrator->go_on(state, next_pass);
 }
 
 void SeveralDevices::complete_film() {

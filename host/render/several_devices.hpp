@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "device_scene/device_scene.hpp"
-#include "integrators/film.hpp"
+#include "film/film.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/primary_hits.hpp"
 #include "opencl/programs.hpp"
@@ -22,8 +22,8 @@ struct RayChoice {
 /// All that a render keeps on one device.
 struct RenderDevice {
   /// Begins to build the programs of `passes` and uploads the scene; `threads` build its tree (0: all cores).
-  RenderDevice(Device& on, const Scene& what, const KernelOptions& kernels, RayChoice rays,
-               const std::vector<std::string>& passes, unsigned threads);
+  RenderDevice(Device& on, const Scene& what, const PixelRect& crop, const KernelOptions& kernels,
+               RayChoice rays, const std::vector<std::string>& passes, unsigned threads);
 
   Device& device;
   const std::map<std::string, KernelTime> times_before;  // of earlier renders
@@ -49,6 +49,14 @@ class SeveralDevices : public PassIntegrator {
   void enqueue_pass(std::uint32_t pass) override;
   Totals finish() override;
   std::vector<Channel> channels() override;
+  IntegratorState state() override;
+  void go_on(const IntegratorState& state, std::uint32_t next_pass) override;
+  std::vector<std::string> depends_on_history() const override {
+    return devices_[0]->integrator->depends_on_history();
+  }
+  std::string depends_on_other_pixels() const override {
+    return devices_[0]->integrator->depends_on_other_pixels();
+  }
   double bytes_per_pixel() const override { return devices_[0]->integrator->bytes_per_pixel(); }
 
   /// "each pass is shared: 52% on NAME, 48% on NAME"; after the first pass.
@@ -57,6 +65,7 @@ class SeveralDevices : public PassIntegrator {
  private:
   std::vector<RenderDevice*> devices_;
   std::vector<PassFraction> fractions_;
+  bool shared_ = false;  // after the first pass
 
   void assign_fractions();
   void complete_film();

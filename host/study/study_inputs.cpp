@@ -32,19 +32,6 @@ std::string hash_of(const std::map<std::string, std::string>& sources) {
   return hash;
 }
 
-/// Of every kernel file: those of --kernel-dir, or those in the binary.
-std::string kernels_hash(const std::string& kernel_dir) {
-  std::map<std::string, std::string> sources;
-  if (kernel_dir.empty()) return hash_of(embedded_kernel_sources());
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(kernel_dir, error)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".cl" || extension == ".h")
-      sources[fs::relative(entry.path(), kernel_dir).string()] = bytes_of(entry.path().string());
-  }
-  return hash_of(sources);
-}
-
 }  // namespace
 
 std::string content_hash(const std::string& bytes, const std::string& before) {
@@ -63,6 +50,18 @@ std::string scene_hash_of(const Scene& scene) {
   std::string hash = file_hash(scene.file);
   for (const auto& file : scene.assets) hash = content_hash(bytes_of(file), content_hash(file, hash));
   return hash;
+}
+
+std::string kernels_hash(const std::string& kernel_dir) {
+  std::map<std::string, std::string> sources;
+  if (kernel_dir.empty()) return hash_of(embedded_kernel_sources());
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(kernel_dir, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".cl" || extension == ".h")
+      sources[fs::relative(entry.path(), kernel_dir).string()] = bytes_of(entry.path().string());
+  }
+  return hash_of(sources);
 }
 
 std::vector<std::string> deciding_options(const StudyRequest& request) {

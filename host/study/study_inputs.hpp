@@ -17,6 +17,9 @@ std::string file_hash(const std::string& file);
 /// The hash of the scene's file and of every file that it names, names included.
 std::string scene_hash_of(const Scene& scene);
 
+/// The hash of every kernel file: those of --kernel-dir, or those in the binary.
+std::string kernels_hash(const std::string& kernel_dir);
+
 /// The options of `study` that decide what is rendered, as words of the command line, and the hash of the
 /// kernels' sources. Not those that only decide for how long and what is printed.
 std::vector<std::string> deciding_options(const StudyRequest& request);

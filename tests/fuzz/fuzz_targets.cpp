@@ -7,7 +7,7 @@ const std::vector<FuzzTarget>& fuzz_targets() {
       {"scene", fuzz_scene}, {"override", fuzz_override}, {"obj", fuzz_obj}, {"ply", fuzz_ply},
       {"png", fuzz_png},     {"jpeg", fuzz_jpeg},         {"hdr", fuzz_hdr}, {"bmp", fuzz_bmp},
       {"tga", fuzz_tga},     {"pfm", fuzz_pfm},           {"exr", fuzz_exr}, {"kernels", fuzz_kernels},
-      {"study", fuzz_study}};
+      {"study", fuzz_study}, {"film", fuzz_film}};
   return targets;
 }
 

@@ -40,5 +40,6 @@ void fuzz_pfm(const std::string& bytes);
 void fuzz_exr(const std::string& bytes);
 void fuzz_kernels(const std::string& bytes);
 void fuzz_study(const std::string& bytes);
+void fuzz_film(const std::string& bytes);
 
 }  // namespace causticl

@@ -5,21 +5,22 @@
 #include <tuple>
 
 #include "accuracy/error_estimate.hpp"
-#include "integrators/film.hpp"
+#include "kernels/film_samples.hpp"
 #include "vector_inputs.hpp"
 
 using namespace causticl;
 
 namespace {
 
-std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint width, uint passes,
-                                      uint stride, bool low_discrepancy = false) {
+std::vector<PixelError> device_errors(const std::vector<PixelStatistics>& film, uint width, uint stride,
+                                      bool low_discrepancy = false, uint found = 1) {
   auto program = build_test_program("#include \"passes/pass_film.cl\"\n");
   auto pixels = test_device().upload(film, "film");
   const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
   auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
-  run_kernel(program, "pixel_errors", count, pixels, errors, width, static_cast<uint>(film.size()) / width,
-             passes, stride, count, uint(low_discrepancy));
+  run_kernel(program, "pixel_errors", count, pixels, errors,
+             test_device().upload(std::vector<uint>{found}, "found"), width,
+             static_cast<uint>(film.size()) / width, stride, count, uint(low_discrepancy));
   return test_device().download<PixelError>(errors, count);
 }
 
@@ -27,7 +28,7 @@ std::vector<PixelError> device_errors(const std::vector<FilmPixel>& film, uint w
 struct Oracle {
   double noise, pooled_noise, bias, half_difference;
 };
-Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint passes, bool even_estimates) {
+Oracle oracle(const std::vector<PixelStatistics>& film, int width, int x, int y, bool even_estimates) {
   const int height = static_cast<int>(film.size()) / width;
   int reach = 1;
   const auto over_window = [&](int x_of, int y_of, auto add) {
@@ -37,22 +38,21 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
         add(film[static_cast<std::size_t>(j) * width + i]);
     return static_cast<double>(count);
   };
-  const auto variance_of = [&](const FilmPixel& p) {
-    const double n = passes - p.left_out;
-    return std::pow(p.m2_deviation, 2) / std::max(n - 1, 1.0);
+  const auto variance_of = [&](const PixelStatistics& p) {
+    return std::pow(p.deviation, 2) / std::max(p.estimates - 1.0, 1.0);
   };
   double variance = 0;
-  const double pixels = over_window(x, y, [&](const FilmPixel& p) { variance += variance_of(p); });
+  const double pixels = over_window(x, y, [&](const PixelStatistics& p) { variance += variance_of(p); });
   double wide = 0;
   reach = 2;
-  const double wide_pixels = over_window(x, y, [&](const FilmPixel& p) { wide += variance_of(p); });
+  const double wide_pixels = over_window(x, y, [&](const PixelStatistics& p) { wide += variance_of(p); });
   reach = 1;
   double noise = 0, square = 0;
   int windows = 0;
   for (int j = y - 3; j <= y + 3; j += 3)
     for (int i = x - 3; i <= x + 3; i += 3) {
       double first = 0, second = 0;
-      const double count = over_window(i, j, [&](const FilmPixel& p) {
+      const double count = over_window(i, j, [&](const PixelStatistics& p) {
         first += p.kernel_bias[0];
         second += p.kernel_bias[1];
       });
@@ -61,48 +61,29 @@ Oracle oracle(const std::vector<FilmPixel>& film, int width, int x, int y, uint 
       noise += std::pow((first - second) / (2 * count), 2);
       if (i == x && j == y) square = std::pow((first + second) / (2 * count), 2);
     }
-  const auto drawn_of = [&](const FilmPixel& p) {
-    const double n = std::max(1.0, static_cast<double>(passes) - p.left_out);
-    // By the number of estimates: one more with plus than with minus, or one less, or none.
-    int plus = 0;
-    for (uint k = 0; k < passes - p.left_out; ++k) plus += std::popcount(k) % 2 ? -1 : 1;
-    const double luminance = (0.2126 * p.sum[0] + 0.7152 * p.sum[1] + 0.0722 * p.sum[2]) / n;
-    return (p.signed_half_sum - plus * luminance) / n;
-  };
-  const FilmPixel& own = film[static_cast<std::size_t>(y) * width + x];
+  const PixelStatistics& own = film[static_cast<std::size_t>(y) * width + x];
   double ratio = 1;
   if (even_estimates) {
     double squares = 0, variances = 0;
     reach = 3;
-    over_window(x, y, [&](const FilmPixel& p) {
-      squares += std::pow(drawn_of(p), 2);
+    over_window(x, y, [&](const PixelStatistics& p) {
+      squares += std::pow(p.half_difference, 2);
       variances += variance_of(p);
     });
     ratio = squares / variances;
   }
   return {std::sqrt(ratio * (0.98 * variance_of(own) + 0.02 * variance / pixels)),
-          std::sqrt(ratio * std::max(variance / pixels, 12.0 / (12 + passes) * wide / wide_pixels)),
-          2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)), drawn_of(own)};
+          std::sqrt(ratio * std::max(variance / pixels, 12.0 / (12 + own.estimates) * wide / wide_pixels)),
+          2 * std::sqrt(std::max(0.0, square - 2 * noise / windows)), own.half_difference};
 }
 
 /// The film of pixels that have each had `passes` estimates of luminance (x), with what their kernel blurs of
 /// it (y).
 std::vector<FilmPixel> film_of(const std::vector<float2>& samples, uint passes) {
-  auto program = build_test_program(R"(
-#include "film/film.cl"
-kernel void add_samples(global const float2 *samples, global FilmPixel *film, volatile global Counters *counters,
-                        uint pixels, uint passes) {
-  uint i = get_global_id(0);
-  if (i >= pixels) return;
-  for (uint n = 0; n < passes; ++n) film_add(film + i, (real3)samples[i * passes + n].x, samples[i * passes + n].y, n, counters);
-}
-)");
-  const uint pixels = static_cast<uint>(samples.size()) / passes;
-  auto in = test_device().upload(samples, "samples");
-  auto film = test_device().upload(std::vector<FilmPixel>(pixels), "film");
-  auto counters = test_device().upload(std::vector<Counters>(1), "counters");
-  run_kernel(program, "add_samples", pixels, in, film, counters, pixels, passes);
-  return test_device().download<FilmPixel>(film, pixels);
+  std::vector<float4> estimates;
+  for (const float2& sample : samples) estimates.push_back({sample.x, sample.x, sample.x, sample.y});
+  Counters counters{};
+  return add_samples(estimates, static_cast<uint>(samples.size()) / passes, counters);
 }
 
 double normal(RandomInputs& random) { return std::normal_distribution<double>()(random.engine); }
@@ -112,37 +93,55 @@ double normal(RandomInputs& random) { return std::normal_distribution<double>()(
 TEST_CASE("errors of pixels equal those in double precision, at borders too") {
   RandomInputs random(61);
   constexpr uint width = 37, height = 23;
-  std::vector<FilmPixel> film(width * height);
+  std::vector<PixelStatistics> film(width * height);
   for (auto& pixel : film) {
-    for (int c = 0; c < 3; ++c) pixel.sum[c] = static_cast<float>(random.uniform(0, 40));
-    pixel.left_out = random.uniform() < 0.1 ? static_cast<uint>(random.uniform(1, 21)) : 0;
-    pixel.m2_deviation = static_cast<float>(random.uniform(0, 3));
+    pixel.luminance = static_cast<float>(random.uniform(0, 2));
+    pixel.estimates = static_cast<float>(random.uniform() < 0.1 ? std::floor(random.uniform(1, 20)) : 20);
+    pixel.deviation = static_cast<float>(random.uniform(0, 3));
     // The halves of the passes agree to the noise of what is beside, or do not.
     const double kernel_bias = random.uniform(0, 4);
     for (float& sum : pixel.kernel_bias) sum = static_cast<float>(kernel_bias + random.uniform(-1, 1));
-    pixel.signed_half_sum = static_cast<float>(random.uniform(-9, 9));
+    pixel.half_difference = static_cast<float>(random.uniform(-0.5, 0.5));
+    pixel.unknown = random.uniform() < 0.05;
   }
   uint biased = 0;
-  for (const auto& [stride, low_discrepancy, passes] :
-       {std::tuple{1u, false, 20u}, {5u, false, 21u}, {1u, true, 20u}}) {
-    const auto errors = device_errors(film, width, passes, stride, low_discrepancy);
+  for (const auto& [stride, low_discrepancy] : {std::pair{1u, false}, {5u, false}, {1u, true}}) {
+    const auto errors = device_errors(film, width, stride, low_discrepancy);
     REQUIRE(errors.size() == (film.size() + stride - 1) / stride);
     for (uint k = 0; k < errors.size(); ++k) {
       const uint i = k * stride;
-      const Oracle expected = oracle(film, width, i % width, i / width, passes, low_discrepancy);
-      CAPTURE(i, low_discrepancy, passes, random.seed);
+      const Oracle expected = oracle(film, width, i % width, i / width, low_discrepancy);
+      CAPTURE(i, low_discrepancy, random.seed);
       CHECK(errors[k].noise == Approx(expected.noise).epsilon(1e-5));
       CHECK(errors[k].pooled_noise == Approx(expected.pooled_noise).epsilon(1e-5));
       // A mean next to zero cancels.
-      CHECK(errors[k].bias == Approx(expected.bias).epsilon(1e-3).margin(1e-4));
+      if (film[i].unknown)
+        CHECK(std::isinf(errors[k].bias));
+      else
+        CHECK(errors[k].bias == Approx(expected.bias).epsilon(1e-3).margin(1e-4));
       biased += expected.bias > 0;
-      CHECK(errors[k].half_difference == Approx(expected.half_difference).epsilon(1e-5).margin(1e-5));
-      const double n = std::max(1.0, static_cast<double>(passes) - film[i].left_out);
-      CHECK(errors[k].luminance ==
-            Approx((0.2126 * film[i].sum[0] + 0.7152 * film[i].sum[1] + 0.0722 * film[i].sum[2]) / n));
+      CHECK(errors[k].half_difference == film[i].half_difference);
+      CHECK(errors[k].luminance == film[i].luminance);
     }
   }
   CHECK(biased > film.size() / 2);
+}
+
+TEST_CASE("the error of all pixels is unknown where photons are stored and none has been found") {
+  RandomInputs random(65);
+  std::vector<PixelStatistics> film(50, {4, 1, 0.1f, {0, 0}, 0, 0});
+  for (const uint found : {0u, 1u})
+    for (const auto& error : device_errors(film, 10, 1, false, found))
+      CHECK(std::isinf(error.bias) == (found == 0));
+
+  // A single pixel that has found some tells.
+  std::vector<FilmPixel> pixels(300);
+  for (const bool any : {false, true}) {
+    if (any) pixels[random.engine() % pixels.size()].missed = -1;
+    uint found = 0;
+    statistics_of(pixels, 4, &found);
+    CHECK(found == (any ? 1u : 0u));
+  }
 }
 
 TEST_CASE("noise and bias of pixels are found where they are known") {
@@ -157,7 +156,7 @@ TEST_CASE("noise and bias of pixels are found where they are known") {
       sample.x = static_cast<float>(1 + (biased ? bias : 0) + sigma * normal(random));
       sample.y = static_cast<float>((biased ? bias / 2 : 0) + sigma * normal(random));
     }
-    const auto errors = device_errors(film_of(samples, passes), width, passes, 1);
+    const auto errors = device_errors(statistics_of(film_of(samples, passes), passes), width, 1);
     double noise2 = 0, pooled2 = 0, drawn2 = 0, mean_bias = 0;
     for (const auto& error : errors) {
       noise2 += error.noise * error.noise / errors.size();
@@ -201,10 +200,10 @@ TEST_CASE("the noise of pixels whose estimates are even is that of their means")
     }
     truth[right] += std::pow(mean - 0.5, 2) / (width * height / 2);
   }
-  const auto film = film_of(samples, passes);
+  const auto film = statistics_of(film_of(samples, passes), passes);
   for (const bool low_discrepancy : {false, true}) {
     double noise[2] = {0, 0}, pooled[2] = {0, 0};
-    const auto errors = device_errors(film, width, passes, 1, low_discrepancy);
+    const auto errors = device_errors(film, width, 1, low_discrepancy);
     for (uint i = 0; i < errors.size(); ++i) {
       const uint x = i % width;
       if (x + border >= width / 2 && x < width / 2 + border) continue;
@@ -233,17 +232,18 @@ TEST_CASE("errors drawn are spread as the errors of pixels whose light is rare")
   for (auto& pixel : film) {
     for (uint n = 0; n < passes; ++n) {
       const float value = random.uniform() < 0.025 ? 40.0f : 0.0f;
-      for (float& sum : pixel.sum) sum += value;
-      pixel.signed_half_sum += std::popcount(n) % 2 ? -value : value;
+      for (ExactSum& sum : pixel.radiance) sum = exact_sum_add(sum, value);
+      ExactSum& half = pixel.luminance[std::popcount(n) % 2];
+      half = exact_sum_add(half, value);
     }
-    errors.push_back(pixel.sum[0] / passes - 1);
+    errors.push_back(mean_of(pixel.radiance[0], passes) - 1);
   }
   double variance = 0, fourth = 0, drawn_variance = 0, drawn_fourth = 0;
   for (const double error : errors) {
     variance += std::pow(error, 2) / film.size();
     fourth += std::pow(error, 4) / film.size();
   }
-  for (const auto& error : device_errors(film, width, passes, 1)) {
+  for (const auto& error : device_errors(statistics_of(film, passes), width, 1)) {
     drawn_variance += std::pow(error.half_difference, 2) / film.size();
     drawn_fourth += std::pow(error.half_difference, 4) / film.size();
   }
@@ -262,14 +262,14 @@ TEST_CASE("the error of a picture is relative to its light however dim or bright
     sample.x = static_cast<float>(1 + normal(random) / 4);
     sample.y = static_cast<float>(0.1 + 0.01 * normal(random));
   }
-  const auto plain = device_errors(film_of(samples, passes), width, passes, 1, true);
+  const auto plain = device_errors(statistics_of(film_of(samples, passes), passes), width, 1, true);
   const auto expected = picture_error(plain, 0.9);
   REQUIRE(expected);
   CHECK(expected->error > 0.05);
   for (const int power : {-110, -100, -60, 60, 100, 110}) {  // 10^-33 to 10^33
     auto scaled = samples;
     for (auto& sample : scaled) sample = {std::ldexp(sample.x, power), std::ldexp(sample.y, power)};
-    const auto errors = device_errors(film_of(scaled, passes), width, passes, 1, true);
+    const auto errors = device_errors(statistics_of(film_of(scaled, passes), passes), width, 1, true);
     const auto error = picture_error(errors, 0.9);
     CAPTURE(power, random.seed);
     REQUIRE(error);

@@ -1,6 +1,7 @@
 // The end of an SPPM pass against the host: radiance by equation (7), and each pixel's statistics.
 #include <cstring>
 
+#include "film/film.hpp"
 #include "kernels/gather_fixture.hpp"
 
 using namespace causticl;
@@ -90,8 +91,9 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
       }
       largest_blur = std::max(largest_blur, std::fabs(kernel_bias));
       if (i != broken)
-        worst_blur = std::max(worst_blur, std::fabs(out[first + i].kernel_bias[0] - kernel_bias));
-      wrong += out[first + i].kernel_bias[1] != 0 || out[first + i].m2_deviation != 0;
+        worst_blur = std::max(worst_blur, std::fabs(mean_of(out[first + i].kernel_bias[0], 1) - kernel_bias));
+      wrong += mean_of(out[first + i].kernel_bias[1], 1) != 0 || mean_of(out[first + i].luminance[1], 1) != 0;
+      wrong += (out[first + i].missed < 0) != (count > 0);
       const SppmPixel& pixel = after[first + i];
       if (shared_radius2 > 0) {
         wrong += pixel.radius2_hi != 0.01f || pixel.photons_low != count;
@@ -101,14 +103,14 @@ TEST_CASE("gather_photons estimates radiance by equation (7) and updates each pi
         worst_radius = std::max(worst_radius, std::fabs(pixel.radius2_hi / expected - 1));
       }
       for (int c = 0; c < 3; ++c) {
-        const double value = double(out[first + i].sum[c]) + out[first + i].low[c];
+        const double value = mean_of(out[first + i].radiance[c], 1);
         if (i == broken)
           wrong += value != 0;
         else
           worst = std::max(worst, std::fabs(value / (radiance[c] / samples) - 1));
       }
     }
-    for (uint i = 0; i < first; ++i) wrong += out[i].sum[0] != 0 || after[i].radius2_hi != 0.01f;
+    for (uint i = 0; i < first; ++i) wrong += out[i].radiance[0].high != 0 || after[i].radius2_hi != 0.01f;
     CHECK(wrong == 0);
     CHECK(worst < 2e-6);
     CHECK(worst_blur < 1e-5 * largest_blur);

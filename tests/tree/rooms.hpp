@@ -32,7 +32,8 @@ inline const std::map<std::string, std::set<std::string>>& host_rooms() {
     };
     above("device_scene", "opencl", {"scene", "world"});
     above("photons", "device_scene", {});
-    above("integrators", "photons", {"accuracy", "image"});
+    above("film", "opencl", {"accuracy", "image"});
+    above("integrators", "photons", {"accuracy", "image", "film"});
     above("render", "integrators", {});
     above("selftest", "render", {});
     above("study", "render", {"format"});

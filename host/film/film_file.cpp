@@ -1,0 +1,284 @@
+// The format: a line "causticl film VERSION", the length of what follows as eight bytes, a JSON object that
+// says what the film is and lists its blocks, the checksum (XXH3, 128 bits) of all that, and the blocks, each
+// with its checksum in the list. Numbers are little-endian.
+#include "film/film_file.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include <unistd.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/error.hpp"
+#include "base/input_file.hpp"
+#include "base/output_file.hpp"
+#include "base/printable.hpp"
+
+namespace causticl {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "film files hold numbers as the machine does");
+
+using Json = nlohmann::ordered_json;
+
+const std::string film_text = "a film as `causticl render --film` writes it";
+const std::string magic = "causticl film ";
+constexpr int version = 1;
+constexpr int largest_edge = 65536;
+
+std::string checksum_text(const void* data, std::size_t size) {
+  const XXH128_hash_t hash = XXH3_128bits(data, size);
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return text;
+}
+
+using Bytes = std::string_view;
+
+template <typename Record>
+Bytes bytes_of(const std::vector<Record>& records) {
+  return {reinterpret_cast<const char*>(records.data()), records.size() * sizeof(Record)};
+}
+
+/// The blocks of a film, by name.
+std::vector<std::pair<std::string, Bytes>> blocks_of(const FilmState& film) {
+  std::vector<std::pair<std::string, Bytes>> blocks{{"film.pixels", bytes_of(film.pixels)}};
+  if (!film.layers.empty()) blocks.emplace_back("film.layers", bytes_of(film.layers));
+  for (const auto& [name, bytes] : film.state) blocks.emplace_back(name, bytes_of(bytes));
+  return blocks;
+}
+
+Json json_of(const PixelRect& rect) { return {rect.x0, rect.y0, rect.x1, rect.y1}; }
+
+/// Throws where it does not lie within `outer`.
+PixelRect rect_of(const Json& json, const PixelRect& outer) {
+  const PixelRect rect{json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>(),
+                       json.at(3).get<int>()};
+  if (rect.x0 < outer.x0 || rect.x0 >= rect.x1 || rect.x1 > outer.x1 || rect.y0 < outer.y0 ||
+      rect.y0 >= rect.y1 || rect.y1 > outer.y1)
+    throw std::out_of_range("rect");
+  return rect;
+}
+
+Json header_of(const FilmState& film) {
+  Json header;
+  for (const auto& [name, value] : film.identity) header["identity"].push_back({name, value});
+  header["width"] = film.width;
+  header["height"] = film.height;
+  header["crop"] = json_of(film.crop);
+  header["rect"] = json_of(film.rect);
+  header["passes"] = Json::array();
+  for (const PassRange& range : film.passes.ranges()) header["passes"].push_back({range.begin, range.end});
+  header["even"] = film.even;
+  header["photons_stored"] = film.photons_stored;
+  header["depends_on_history"] = film.depends_on_history;
+  header["devices"] = film.devices;
+  header["photons"] = film.photons;
+  header["rays"] = film.rays;
+  header["seconds"] = film.seconds;
+  header["diagnostics"] = film.diagnostics;
+  header["blocks"] = Json::array();
+  for (const auto& [name, bytes] : blocks_of(film))
+    header["blocks"].push_back(
+        {{"name", name}, {"bytes", bytes.size()}, {"xxh128", checksum_text(bytes.data(), bytes.size())}});
+  return header;
+}
+
+/// Reads pieces of a file's bytes one after the other; false where they end.
+class Reader {
+ public:
+  explicit Reader(Bytes bytes) : left_(bytes) {}
+  bool take(std::size_t count, Bytes& piece) {
+    if (count > left_.size()) return false;
+    piece = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return true;
+  }
+  bool at_end() const { return left_.empty(); }
+
+ private:
+  Bytes left_;
+};
+
+[[noreturn]] void damaged(const std::string& file) {
+  throw UserError(
+      printable_line(file) +
+      ": is damaged or cut off; expected a film as `causticl render --film` writes it. Take another "
+      "copy or render it again");
+}
+
+template <typename Record>
+std::vector<Record> records_of(Bytes bytes, std::size_t count) {
+  if (bytes.size() != count * sizeof(Record)) throw std::length_error("records");
+  std::vector<Record> records(count);
+  std::memcpy(records.data(), bytes.data(), bytes.size());
+  return records;
+}
+
+PassSet passes_of(const Json& ranges) {
+  PassSet passes;
+  for (const auto& range : ranges) {
+    const PassRange next{range.at(0).get<std::uint64_t>(), range.at(1).get<std::uint64_t>()};
+    if (next.begin >= next.end || next.end > std::numeric_limits<std::int32_t>::max() || passes.meets(next))
+      throw std::out_of_range("passes");
+    passes.add(next);
+  }
+  return passes;
+}
+
+/// All but the blocks. Throws where something is missing or makes no sense.
+FilmState state_of(const Json& header) {
+  FilmState film;
+  for (const auto& entry : header.at("identity"))
+    film.identity.emplace_back(entry.at(0).get<std::string>(), entry.at(1).get<std::string>());
+  header.at("width").get_to(film.width);
+  header.at("height").get_to(film.height);
+  if (film.width > largest_edge || film.height > largest_edge) throw std::out_of_range("size");
+  film.rect = rect_of(header.at("rect"), {0, 0, film.width, film.height});
+  film.crop = rect_of(header.at("crop"), film.rect);
+  if (film.rect != with_margin(film.crop, film.width, film.height)) throw std::out_of_range("rect");
+  film.passes = passes_of(header.at("passes"));
+  header.at("even").get_to(film.even);
+  header.at("photons_stored").get_to(film.photons_stored);
+  header.at("depends_on_history").get_to(film.depends_on_history);
+  header.at("devices").get_to(film.devices);
+  header.at("photons").get_to(film.photons);
+  header.at("rays").get_to(film.rays);
+  header.at("seconds").get_to(film.seconds);
+  header.at("diagnostics").get_to(film.diagnostics);
+  return film;
+}
+
+void read_blocks(const Json& list, Reader& reader, FilmState& film) {
+  for (const auto& entry : list) {
+    Bytes bytes;
+    const std::string name = entry.at("name").get<std::string>();
+    if (!reader.take(entry.at("bytes").get<std::size_t>(), bytes) ||
+        checksum_text(bytes.data(), bytes.size()) != entry.at("xxh128").get<std::string>())
+      throw std::length_error("blocks");
+    if (name == "film.pixels")
+      film.pixels = records_of<FilmPixel>(bytes, film.rect.pixels());
+    else if (name == "film.layers")
+      film.layers = records_of<FilmLightPasses>(bytes, film.rect.pixels());
+    else
+      film.state[name] = records_of<std::byte>(bytes, bytes.size());
+  }
+  if (film.pixels.empty() || !reader.at_end()) throw std::length_error("blocks");
+}
+
+/// The version that the first line of `bytes` says, which is taken off; none where that is no film's.
+std::optional<int> version_of(Reader& reader) {
+  Bytes piece;
+  if (!reader.take(magic.size(), piece) || piece != magic) return {};
+  int number = 0;
+  for (int digits = 0; digits < 6; ++digits) {
+    if (!reader.take(1, piece)) return {};
+    if (piece[0] == '\n' && digits > 0) return number;
+    if (piece[0] < '0' || piece[0] > '9') return {};
+    number = 10 * number + (piece[0] - '0');
+  }
+  return {};
+}
+
+}  // namespace
+
+PixelRect with_margin(const PixelRect& crop, int width, int height) {
+  constexpr int margin = 4;  // ERROR_REACH of cl/passes/pass_film.cl
+  return {std::max(crop.x0 - margin, 0), std::max(crop.y0 - margin, 0), std::min(crop.x1 + margin, width),
+          std::min(crop.y1 + margin, height)};
+}
+
+std::string text_of(const PixelRect& rect) {
+  return std::to_string(rect.x0) + "," + std::to_string(rect.y0) + "," + std::to_string(rect.x1) + "," +
+         std::to_string(rect.y1);
+}
+
+std::string film_bytes(const std::string& header, std::string_view blocks) {
+  const std::uint64_t length = header.size();
+  std::string bytes = magic + std::to_string(version) + "\n";
+  bytes.append(reinterpret_cast<const char*>(&length), sizeof length);
+  bytes += header;
+  bytes += checksum_text(bytes.data(), bytes.size());
+  bytes += blocks;
+  return bytes;
+}
+
+void write_film(const std::string& file, const FilmState& film) {
+  const std::string begin = film_bytes(header_of(film).dump(), "");
+  std::vector<Bytes> pieces{begin};
+  for (const auto& [name, bytes] : blocks_of(film)) pieces.push_back(bytes);
+  write_file_synced(file, pieces);
+}
+
+FilmState read_film(const std::string& file) {
+  return film_of_bytes(file, read_input(file, film_text, std::numeric_limits<std::int64_t>::max()));
+}
+
+FilmState film_of_bytes(const std::string& file, std::string_view bytes) {
+  Reader reader(bytes);
+  const auto found = version_of(reader);
+  if (!found) throw UserError(printable_line(file) + ": is no film; expected " + film_text);
+  if (*found != version)
+    throw UserError(printable_line(file) + ": is a film of version " + std::to_string(*found) +
+                    ", which this causticl does not read; expected version " + std::to_string(version) +
+                    ". Use the causticl that wrote it");
+  Bytes piece, header, sum;
+  std::uint64_t length = 0;
+  constexpr std::uint64_t longest_header = 1 << 24;
+  if (!reader.take(sizeof length, piece)) damaged(file);
+  std::memcpy(&length, piece.data(), sizeof length);
+  const std::size_t begin = magic.size() + std::to_string(version).size() + 1 + sizeof length;
+  if (length > longest_header || !reader.take(static_cast<std::size_t>(length), header) ||
+      !reader.take(32, sum) || checksum_text(bytes.data(), begin + header.size()) != sum)
+    damaged(file);
+  try {
+    const Json json = Json::parse(header);
+    FilmState film = state_of(json);
+    read_blocks(json.at("blocks"), reader, film);
+    return film;
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    damaged(file);
+  }
+}
+
+bool is_film(const std::string& file) {
+  try {
+    const InputFile input = open_input(file, "a film");
+    std::string begin(magic.size(), '\0');
+    return read(input.descriptor.get(), begin.data(), begin.size()) == static_cast<ssize_t>(begin.size()) &&
+           begin == magic;
+  } catch (const UserError&) {
+    return false;
+  }
+}
+
+std::string difference_of(const RenderIdentity& theirs, const std::string& name, const RenderIdentity& ours,
+                          const std::string& our_name) {
+  const auto value_in = [](const RenderIdentity& identity, const std::string& key) {
+    for (const auto& [own, value] : identity)
+      if (own == key) return value;
+    return std::string("none");
+  };
+  std::vector<std::string> keys;
+  for (const auto* identity : {&ours, &theirs})
+    for (const auto& [key, value] : *identity)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  for (const auto& key : keys) {
+    const std::string a = value_in(theirs, key), b = value_in(ours, key);
+    if (a != b) return key + ": " + a + " in " + name + ", " + b + " " + our_name;
+  }
+  return "";
+}
+
+}  // namespace causticl
