@@ -121,17 +121,17 @@ int merge(const Options& options) {
   for (const auto& file : options.render.outputs) check_output(file);
   if (!options.film.empty()) check_writable(options.film);
   FilmMerger merger;
-  for (const auto& file : options.films) merger.add(file, read_film(file));
-  const FilmState film = merger.finish();
+  for (const auto& file : options.films) merger.add(file);
+  const FilmState film = merger.summary();
   ProgressReport progress(stderr, options.quiet);
   if (film.devices.size() > 1)
     progress.note("the parts are of " + listed(film.devices) + ": the bits are those of no single device");
   LastSteps last;
-  if (!options.film.empty()) last.take([&] { write_film(options.film, film); });
+  if (!options.film.empty()) last.take([&] { write_film(options.film, merger.whole()); });
   if (options.render.outputs.empty()) return last.exit_code();
   KernelCache kernels(options.keep_kernels);
   Device device(find_device(options.device), options.render.threads, &kernels);
-  const RenderResult result = picture_of(film, device, options.render.confidence);
+  const RenderResult result = picture_of(merger, device, options.render.confidence);
   report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
   const auto unwritten = write_pictures(options.render.outputs, result.picture,
                                         metadata_of(film, result.statistics), Unwritable::kept);

@@ -171,7 +171,12 @@ void ProgressReport::update(const Progress& now) {
   printed_ = now;
 
   // Start-up (kernels, tree) is left out of the rates as soon as two passes can be told from it.
-  const Progress start = now.pass > first_.pass ? first_ : Progress{};
+  Progress start = first_;
+  if (now.pass == first_.pass) {
+    start = {};
+    start.photons = now.photons_before;
+    start.rays = now.rays_before;
+  }
   const double seconds = std::max(now.seconds - start.seconds, 1e-9);
   const double photons = static_cast<double>(now.photons - start.photons) / seconds;
   const double rays = static_cast<double>(now.rays - start.rays) / seconds;

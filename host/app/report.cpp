@@ -168,6 +168,7 @@ std::string statistics_json(const Statistics& s) {
                                    {"kept_programs", s.cached_programs},
                                    {"pass_seconds", s.pass_seconds},
                                    {"error_seconds", s.error_seconds},
+                                   {"film_stop_seconds", s.film_stop_seconds},
                                    {"tree_build_seconds", s.tree_build_seconds},
                                    {"camera_rays", s.camera_rays},
                                    {"photon_rays", s.photon_rays},

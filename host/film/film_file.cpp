@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -108,10 +109,8 @@ class Reader {
 };
 
 [[noreturn]] void damaged(const std::string& file) {
-  throw UserError(
-      printable_line(file) +
-      ": is damaged or cut off; expected a film as `causticl render --film` writes it. Take another "
-      "copy or render it again");
+  throw UserError(printable_line(file) + ": is damaged or cut off; expected " + film_text +
+                  ". Take another copy or render it again");
 }
 
 template <typename Record>
@@ -123,6 +122,9 @@ std::vector<Record> records_of(Bytes bytes, std::size_t count) {
 }
 
 PassSet passes_of(const Json& ranges) {
+  // Parts with gaps between them; more of them are no work of a person.
+  constexpr std::size_t most_ranges = 1024;
+  if (!ranges.is_array() || ranges.size() > most_ranges) throw std::out_of_range("passes");
   PassSet passes;
   for (const auto& range : ranges) {
     const PassRange next{range.at(0).get<std::uint64_t>(), range.at(1).get<std::uint64_t>()};
@@ -187,18 +189,28 @@ std::optional<int> version_of(Reader& reader) {
   return {};
 }
 
+constexpr std::uint64_t longest_header = 1 << 24;
+
+/// Takes the header from `reader`, which is at the first of `bytes`. Throws UserError where there is none.
+Json header_of_bytes(const std::string& file, Bytes bytes, Reader& reader) {
+  const auto found = version_of(reader);
+  if (!found) throw UserError(printable_line(file) + ": is no film; expected " + film_text);
+  if (*found != version)
+    throw UserError(printable_line(file) + ": is a film of version " + std::to_string(*found) +
+                    ", which this causticl does not read; expected version " + std::to_string(version) +
+                    ". Use the causticl that wrote it");
+  Bytes piece, header, sum;
+  std::uint64_t length = 0;
+  if (!reader.take(sizeof length, piece)) damaged(file);
+  std::memcpy(&length, piece.data(), sizeof length);
+  const std::size_t begin = magic.size() + std::to_string(version).size() + 1 + sizeof length;
+  if (length > longest_header || !reader.take(static_cast<std::size_t>(length), header) ||
+      !reader.take(32, sum) || checksum_text(bytes.data(), begin + header.size()) != sum)
+    damaged(file);
+  return Json::parse(header);
+}
+
 }  // namespace
-
-PixelRect with_margin(const PixelRect& crop, int width, int height) {
-  constexpr int margin = 4;  // ERROR_REACH of cl/passes/pass_film.cl
-  return {std::max(crop.x0 - margin, 0), std::max(crop.y0 - margin, 0), std::min(crop.x1 + margin, width),
-          std::min(crop.y1 + margin, height)};
-}
-
-std::string text_of(const PixelRect& rect) {
-  return std::to_string(rect.x0) + "," + std::to_string(rect.y0) + "," + std::to_string(rect.x1) + "," +
-         std::to_string(rect.y1);
-}
 
 std::string film_bytes(const std::string& header, std::string_view blocks) {
   const std::uint64_t length = header.size();
@@ -221,33 +233,37 @@ FilmState read_film(const std::string& file) {
   return film_of_bytes(file, read_input(file, film_text, std::numeric_limits<std::int64_t>::max()));
 }
 
+FilmState read_film_header(const std::string& file) {
+  const InputFile input = open_input(file, film_text);
+  std::string begin(static_cast<std::size_t>(std::min(input.size, longest_header + 1024)), '\0');
+  for (std::size_t done = 0; done < begin.size();) {
+    const ssize_t count = read(input.descriptor.get(), begin.data() + done, begin.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) damaged(file);
+    done += static_cast<std::size_t>(count);
+  }
+  Reader reader(begin);
+  try {
+    return state_of(header_of_bytes(file, begin, reader));
+  } catch (const nlohmann::json::exception&) {
+    damaged(file);
+  } catch (const std::out_of_range&) {
+    damaged(file);
+  }
+}
+
 FilmState film_of_bytes(const std::string& file, std::string_view bytes) {
   Reader reader(bytes);
-  const auto found = version_of(reader);
-  if (!found) throw UserError(printable_line(file) + ": is no film; expected " + film_text);
-  if (*found != version)
-    throw UserError(printable_line(file) + ": is a film of version " + std::to_string(*found) +
-                    ", which this causticl does not read; expected version " + std::to_string(version) +
-                    ". Use the causticl that wrote it");
-  Bytes piece, header, sum;
-  std::uint64_t length = 0;
-  constexpr std::uint64_t longest_header = 1 << 24;
-  if (!reader.take(sizeof length, piece)) damaged(file);
-  std::memcpy(&length, piece.data(), sizeof length);
-  const std::size_t begin = magic.size() + std::to_string(version).size() + 1 + sizeof length;
-  if (length > longest_header || !reader.take(static_cast<std::size_t>(length), header) ||
-      !reader.take(32, sum) || checksum_text(bytes.data(), begin + header.size()) != sum)
-    damaged(file);
   try {
-    const Json json = Json::parse(header);
-    FilmState film = state_of(json);
-    read_blocks(json.at("blocks"), reader, film);
+    const Json header = header_of_bytes(file, bytes, reader);
+    FilmState film = state_of(header);
+    read_blocks(header.at("blocks"), reader, film);
     return film;
-  } catch (const UserError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const nlohmann::json::exception&) {
+    damaged(file);
+  } catch (const std::out_of_range&) {
+    damaged(file);
+  } catch (const std::length_error&) {
     damaged(file);
   }
 }
@@ -261,24 +277,6 @@ bool is_film(const std::string& file) {
   } catch (const UserError&) {
     return false;
   }
-}
-
-std::string difference_of(const RenderIdentity& theirs, const std::string& name, const RenderIdentity& ours,
-                          const std::string& our_name) {
-  const auto value_in = [](const RenderIdentity& identity, const std::string& key) {
-    for (const auto& [own, value] : identity)
-      if (own == key) return value;
-    return std::string("none");
-  };
-  std::vector<std::string> keys;
-  for (const auto* identity : {&ours, &theirs})
-    for (const auto& [key, value] : *identity)
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  for (const auto& key : keys) {
-    const std::string a = value_in(theirs, key), b = value_in(ours, key);
-    if (a != b) return key + ": " + a + " in " + name + ", " + b + " " + our_name;
-  }
-  return "";
 }
 
 }  // namespace causticl

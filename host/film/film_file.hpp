@@ -1,67 +1,20 @@
 // Film files: all that a render has added up so far, so that another run goes on from there.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "film/pass_set.hpp"
-#include "shared/types.h"
+#include "film/film_state.hpp"
 
 namespace causticl {
-
-/// Of the picture, the pixels [x0, x1) times [y0, y1), counted from the top left.
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  std::size_t pixels() const {
-    return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-  }
-  bool operator==(const PixelRect&) const = default;
-};
-
-/// A crop with the pixels around it by which the errors of its pixels are told.
-PixelRect with_margin(const PixelRect& crop, int width, int height);
-
-/// "0,0,640,480".
-std::string text_of(const PixelRect& rect);
-
-/// What decides what the estimates of a render are: its scene, seed, kernels and options, each with a name
-/// for messages.
-using RenderIdentity = std::vector<std::pair<std::string, std::string>>;
-
-/// State of an integrator beside the film, as bytes of the device: "sppm.pixels" and the like.
-using IntegratorState = std::map<std::string, std::vector<std::byte>>;
-
-/// A film on the host.
-struct FilmState {
-  RenderIdentity identity;
-  int width = 0, height = 0;  // of the whole picture
-  PixelRect crop;             // what is to be shown of it
-  PixelRect rect;  // the pixels that are held, in rows from the top: those, and those around by which
-                   //   their errors are told
-  PassSet passes;
-  bool even = false;                    // as the film of the device has it
-  std::vector<FilmPixel> pixels;        // rect.pixels()
-  std::vector<FilmLightPasses> layers;  // as many, or none
-  IntegratorState state;
-  bool photons_stored = false;                       // as the film of the device has it
-  std::vector<std::string> depends_on_history;       // why its passes cannot be added to those of other runs
-  std::vector<std::string> devices;                  // that have rendered it
-  std::uint64_t photons = 0, rays = 0;               // so far
-  double seconds = 0;                                // of passes so far
-  std::map<std::string, std::uint64_t> diagnostics;  // by their keys
-};
 
 /// Writes the film to a temporary file, syncs it and puts it in the place of `file`. Throws UserError.
 void write_film(const std::string& file, const FilmState& film);
 
 /// Throws UserError for what is no film, one of a newer version, or one that is damaged or cut off.
 FilmState read_film(const std::string& file);
+/// All but the blocks: neither pixels nor layers nor state.
+FilmState read_film_header(const std::string& file);
 /// The same of these bytes, which messages call `file`.
 FilmState film_of_bytes(const std::string& file, std::string_view bytes);
 /// The bytes of such a file, its header (a JSON object that lists the blocks) and what follows.
@@ -69,9 +22,5 @@ std::string film_bytes(const std::string& header, std::string_view blocks);
 
 /// Whether there is a regular file of this name that begins as films do.
 bool is_film(const std::string& file);
-
-/// What differs between two identities, as in "seed: 1 in a.film, 2 here"; empty where nothing does.
-std::string difference_of(const RenderIdentity& theirs, const std::string& name, const RenderIdentity& ours,
-                          const std::string& our_name);
 
 }  // namespace causticl

@@ -104,28 +104,30 @@ void paste(const PixelRect& from_rect, const std::vector<Record>& from, const Pi
 }
 
 /// The rectangle around all crops.
-PixelRect around(const std::vector<const FilmState*>& films) {
-  PixelRect whole = films.front()->crop;
-  for (const FilmState* film : films) {
-    whole.x0 = std::min(whole.x0, film->crop.x0);
-    whole.y0 = std::min(whole.y0, film->crop.y0);
-    whole.x1 = std::max(whole.x1, film->crop.x1);
-    whole.y1 = std::max(whole.y1, film->crop.y1);
+PixelRect around(const std::vector<PixelRect>& crops) {
+  PixelRect whole = crops.front();
+  for (const PixelRect& crop : crops) {
+    whole.x0 = std::min(whole.x0, crop.x0);
+    whole.y0 = std::min(whole.y0, crop.y0);
+    whole.x1 = std::max(whole.x1, crop.x1);
+    whole.y1 = std::max(whole.y1, crop.y1);
   }
   return whole;
 }
 
 /// A pixel of `whole` that is in no crop, as text; empty where there is none.
-std::string missing_pixel(const std::vector<const FilmState*>& films, const PixelRect& whole) {
+std::string missing_pixel(const std::vector<PixelRect>& crops, const PixelRect& whole) {
   std::size_t covered = 0;
-  for (const FilmState* film : films) covered += film->crop.pixels();
+  for (const PixelRect& crop : crops) covered += crop.pixels();
   if (covered == whole.pixels()) return "";
   for (int y = whole.y0; y < whole.y1; ++y)
-    for (int x = whole.x0; x < whole.x1; ++x)
-      if (std::none_of(films.begin(), films.end(), [&](const FilmState* film) {
-            return meet(film->crop, {x, y, x + 1, y + 1});
-          }))
-        return std::to_string(x) + "," + std::to_string(y);
+    for (int x = whole.x0; x < whole.x1; ++x) {
+      const auto held = std::find_if(crops.begin(), crops.end(), [&](const PixelRect& crop) {
+        return meet(crop, {x, y, x + 1, y + 1});
+      });
+      if (held == crops.end()) return std::to_string(x) + "," + std::to_string(y);
+      x = held->x1 - 1;
+    }
   return "";
 }
 
@@ -146,90 +148,113 @@ void check_form(const std::string& name, const FilmState& film, const FilmState&
   if (!same) throw UserError(name + ": does not hold what films of this render hold; render it again");
 }
 
-/// Crops side by side, of the same passes.
-FilmState paste_crops(const std::vector<const FilmState*>& films, const PixelRect& crop) {
-  const FilmState& first = *films.front();
-  FilmState whole = first;
-  whole.crop = crop;
-  whole.rect = with_margin(crop, first.width, first.height);
-  whole.pixels.clear();
-  whole.layers.clear();
-  whole.state.clear();
-  for (const FilmState* film : films) {
-    paste(film->rect, film->pixels, whole.rect, whole.pixels);
-    if (!film->layers.empty()) paste(film->rect, film->layers, whole.rect, whole.layers);
-    for (const auto& [name, bytes] : film->state) {
-      const std::size_t record = record_of(*film, bytes);
-      whole.state[name].resize(whole.rect.pixels() * record);
-      copy_pixels(film->rect, bytes.data(), whole.rect, whole.state[name].data(), record);
-    }
-    if (film != &first) add_counts(whole, *film);
+/// Puts what `film` holds of the pixels of `whole` there.
+void paste(const FilmState& film, FilmState& whole) {
+  paste(film.rect, film.pixels, whole.rect, whole.pixels);
+  if (!film.layers.empty()) paste(film.rect, film.layers, whole.rect, whole.layers);
+  for (const auto& [name, bytes] : film.state) {
+    const std::size_t record = record_of(film, bytes);
+    whole.state[name].resize(whole.rect.pixels() * record);
+    copy_pixels(film.rect, bytes.data(), whole.rect, whole.state[name].data(), record);
   }
-  return whole;
 }
 
 }  // namespace
 
 void FilmMerger::check(const std::string& name, const FilmState& film) const {
-  const std::string difference = difference_of(film.identity, "it", identity_, "in " + first_name_);
+  if (film.passes.count() == 0) throw UserError(name + ": holds no pass");
+  if (parts_.empty()) return;
+  const std::string difference =
+      difference_of(film.identity, "it", first().film.identity, "in " + first().name);
   if (!difference.empty())
-    throw UserError(name + ": is of another render than " + first_name_ + " (" + difference +
+    throw UserError(name + ": is of another render than " + first().name + " (" + difference +
                     "); expected films of one scene, seed and kernels, with the same options");
-  if (!parts_.empty()) check_form(name, film, parts_.front().film);
   for (const Part& part : parts_) {
-    if (part.film.crop != film.crop) {
-      if (meet(part.film.crop, film.crop))
-        throw UserError(name + ": its pixels " + text_of(film.crop) + " overlap those of " + part.name +
-                        ", " + text_of(part.film.crop) + "; expected the same pixels or others");
+    const File& of_part = part.files.front();
+    if (of_part.film.crop != film.crop) {
+      if (meet(of_part.film.crop, film.crop))
+        throw UserError(name + ": its pixels " + text_of(film.crop) + " overlap those of " + of_part.name +
+                        ", " + text_of(of_part.film.crop) + "; expected the same pixels or others");
       continue;
     }
-    for (const auto& [other, passes] : part.files)
+    for (const File& other : part.files)
       for (const PassRange& range : film.passes.ranges())
-        if (passes.meets(range))
-          throw UserError(name + ": holds the passes " + text_of(film.passes) + ", and " + other + " holds " +
-                          text_of(passes) + "; expected each pass once");
+        if (other.film.passes.meets(range))
+          throw UserError(name + ": holds the passes " + text_of(film.passes) + ", and " + other.name +
+                          " holds " + text_of(other.film.passes) + "; expected each pass once");
     if (!film.depends_on_history.empty())
       throw UserError(name + ": its passes cannot be added to others: " + film.depends_on_history.front());
   }
 }
 
-void FilmMerger::add(const std::string& name, FilmState film) {
-  const std::string clean = printable_line(name);
-  if (film.passes.count() == 0) throw UserError(clean + ": holds no pass");
-  if (parts_.empty()) {
-    first_name_ = clean;
-    identity_ = film.identity;
-  }
-  check(clean, film);
-  const PassSet passes = film.passes;
-  for (Part& part : parts_)
-    if (part.film.crop == film.crop) {
-      add_passes(part.film, film);
-      part.files.emplace_back(clean, passes);
-      return;
-    }
-  parts_.push_back({clean, std::move(film), {{clean, passes}}});
+void FilmMerger::add(const std::string& file) {
+  FilmState film = read_film_header(file);
+  const std::string name = printable_line(file);
+  check(name, film);
+  auto part = std::find_if(parts_.begin(), parts_.end(),
+                           [&](const Part& other) { return other.files.front().film.crop == film.crop; });
+  if (part == parts_.end()) part = parts_.insert(parts_.end(), Part{});
+  for (const PassRange& range : film.passes.ranges()) part->passes.add(range);
+  part->files.push_back({file, std::move(film)});
 }
 
-FilmState FilmMerger::finish() {
-  std::vector<const FilmState*> films;
+FilmState FilmMerger::summary() const {
+  std::vector<PixelRect> crops;
+  FilmState whole = first().film;
   for (const Part& part : parts_) {
-    const auto& ranges = part.film.passes.ranges();
+    const auto& ranges = part.passes.ranges();
     if (ranges.size() > 1)
       throw UserError("the passes " + text_of(PassRange{ranges[0].end, ranges[1].begin}) +
                       " are missing between those of the films; expected the film that holds them as well");
-    if (part.film.passes != parts_.front().film.passes)
-      throw UserError(part.name + ": its pixels have the passes " + text_of(part.film.passes) +
-                      ", those of " + parts_.front().name + " have " + text_of(parts_.front().film.passes) +
+    if (part.passes != parts_.front().passes)
+      throw UserError(part.files.front().name + ": its pixels have the passes " + text_of(part.passes) +
+                      ", those of " + first().name + " have " + text_of(parts_.front().passes) +
                       "; expected crops of the same passes");
-    films.push_back(&part.film);
+    crops.push_back(part.files.front().film.crop);
+    for (const File& file : part.files)
+      if (&file != &first()) add_counts(whole, file.film);
   }
-  if (films.size() == 1) return std::move(parts_.front().film);
-  const PixelRect whole = around(films);
-  if (const std::string pixel = missing_pixel(films, whole); !pixel.empty())
-    throw UserError("the pixel " + pixel + " is missing: the crops leave a gap within " + text_of(whole) +
-                    "; expected crops that fill a rectangle");
-  return paste_crops(films, whole);
+  // Every crop has all photons.
+  whole.photons = 0;
+  for (const File& file : parts_.front().files) whole.photons += file.film.photons;
+  whole.passes = parts_.front().passes;
+  whole.crop = around(crops);
+  whole.rect = with_margin(whole.crop, whole.width, whole.height);
+  if (const std::string pixel = missing_pixel(crops, whole.crop); !pixel.empty())
+    throw UserError("the pixel " + pixel + " is missing: the crops leave a gap within " +
+                    text_of(whole.crop) + "; expected crops that fill a rectangle");
+  return whole;
+}
+
+FilmState FilmMerger::sum_of(const Part& part) const {
+  FilmState sum;
+  for (const File& file : part.files) {
+    FilmState film = read_film(file.name);
+    if (film.passes != file.film.passes || film.crop != file.film.crop || film.identity != file.film.identity)
+      throw UserError(printable_line(file.name) +
+                      ": was changed meanwhile; merge again when no render writes it");
+    if (&file == &part.files.front()) {
+      sum = std::move(film);
+      continue;
+    }
+    check_form(printable_line(file.name), film, sum);
+    add_passes(sum, film);
+  }
+  return sum;
+}
+
+void FilmMerger::for_each_crop(const std::function<void(const FilmState&)>& take) const {
+  for (const Part& part : parts_) take(sum_of(part));
+}
+
+FilmState FilmMerger::whole() const {
+  FilmState whole = summary();
+  if (parts_.size() == 1) return sum_of(parts_.front());
+  for_each_crop([&](const FilmState& film) {
+    check_form(first().name, film, whole.pixels.empty() ? film : whole);
+    paste(film, whole);
+  });
+  return whole;
 }
 
 }  // namespace causticl

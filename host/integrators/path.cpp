@@ -55,7 +55,7 @@ PathTracer::PathTracer(const IntegratorInputs& in)
 }
 
 void PathTracer::enqueue_pass(std::uint32_t pass) {
-  if (pass == 0) began_ = Clock::now();
+  if (began_ == Clock::time_point{}) began_ = Clock::now();
   begin_pass(params_, pass);
   motion_.begin_pass(pass);
   set_emission(params_, device_scene_);

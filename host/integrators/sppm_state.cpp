@@ -30,6 +30,7 @@ void Sppm::go_on(const IntegratorState& state, std::uint32_t next_pass) {
   totals_ = {};
   totals_.start_from(device_.download<Counters>(counters_, 1)[0]);
   photon_map_.forget_dropped();
+  early_seconds_ = 0;
 }
 
 std::vector<std::string> Sppm::depends_on_history() const {

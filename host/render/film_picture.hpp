@@ -1,17 +1,18 @@
-// The picture of a film, as a render of all its passes would have written it.
+// The picture of films, as a render of all their passes would have written it.
 #pragma once
 
-#include "film/film_file.hpp"
+#include "film/merge_films.hpp"
 #include "opencl/device.hpp"
 #include "render/render.hpp"
 
 namespace causticl {
 
-/// The picture of `film` with the errors of its pixels, which `device` tells, and its layers, and what is
-/// known of the render; `confidence` as RenderOptions has it.
-RenderResult picture_of(const FilmState& film, Device& device, double confidence);
+/// The picture of the whole with the errors of its pixels, which `device` tells, and its layers, and what is
+/// known of the render. Only one crop at a time is in memory beside the picture. `confidence` as
+/// RenderOptions has it.
+RenderResult picture_of(const FilmMerger& films, Device& device, double confidence);
 
-/// What an EXR says of the render that left such a film.
+/// What an EXR says of the renders that left such a film.
 Metadata metadata_of(const FilmState& film, const Statistics& statistics);
 
 }  // namespace causticl

@@ -70,7 +70,8 @@ struct Progress {
   std::optional<double> error;         // estimated, of the picture; none where it is not known yet
   // Until half that error; infinite where there is no end in sight, none while the trend is not known.
   std::optional<double> seconds_to_half;
-  std::uint64_t photons = 0, rays = 0;      // so far
+  std::uint64_t photons = 0, rays = 0;                // so far
+  std::uint64_t photons_before = 0, rays_before = 0;  // those of earlier runs
   double pass_seconds = 0;                  // of the passes alone, without start-up, writing and snapshots
   std::optional<double> wanted_error = {};  // at which it ends
 };

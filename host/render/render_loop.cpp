@@ -71,7 +71,22 @@ void RenderLoop::count_earlier() {
   if (!earlier) return;
   statistics_.passes = earlier->passes.count();
   statistics_.pass_seconds = earlier->seconds;
+  take_totals({});
   convergence_.skip(passes());
+}
+
+void RenderLoop::take_totals(const PassIntegrator::Totals& of_this_run) {
+  totals_ = of_this_run;
+  if (const auto& earlier = session_.earlier()) {
+    totals_.photons_emitted += earlier->photons;
+    totals_.rays += earlier->rays;
+    for (const auto& kind : diagnostic_kinds)
+      if (const auto count = earlier->diagnostics.find(kind.key); count != earlier->diagnostics.end())
+        totals_.diagnostics.*kind.count += count->second;
+  }
+  statistics_.photons = totals_.photons_emitted;
+  statistics_.rays = totals_.rays;
+  statistics_.diagnostics = totals_.diagnostics;
 }
 
 void RenderLoop::run(const RenderListeners& listeners, const std::function<std::string()>& first_pass_note) {
@@ -103,20 +118,10 @@ void RenderLoop::write_checkpoints(const std::function<void(const std::string&)>
 void RenderLoop::run_pass(std::uint64_t pass) {
   const auto pass_start = Clock::now();
   integrator_.enqueue_pass(static_cast<std::uint32_t>(pass));
-  totals_ = integrator_.finish();
-  if (const auto& earlier = session_.earlier()) {
-    totals_.photons_emitted += earlier->photons;
-    totals_.rays += earlier->rays;
-    for (const auto& kind : diagnostic_kinds)
-      if (const auto count = earlier->diagnostics.find(kind.key); count != earlier->diagnostics.end())
-        totals_.diagnostics.*kind.count += count->second;
-  }
+  take_totals(integrator_.finish());
   film_.add_pass(pass);
   const bool is_first = pass == range_.begin;
   statistics_.passes = film_.passes().count();
-  statistics_.photons = totals_.photons_emitted;
-  statistics_.rays = totals_.rays;
-  statistics_.diagnostics = totals_.diagnostics;
   const double seconds = seconds_since(pass_start) + (is_first ? integrator_.early_seconds() : 0);
   if (is_first) statistics_.first_pass_done_seconds = seconds_since(start_);
   recent_pass_ = pass < range_.begin + 2 ? seconds : std::max(last_pass_, seconds);
@@ -140,6 +145,10 @@ Progress RenderLoop::progress_before(std::uint64_t next) const {
     now.remaining = std::min(now.remaining, std::max(0.0, *options_.time_limit - elapsed));
   now.photons = totals_.photons_emitted;
   now.rays = totals_.rays;
+  if (const auto& earlier = session_.earlier()) {
+    now.photons_before = earlier->photons;
+    now.rays_before = earlier->rays;
+  }
   now.pass_seconds = statistics_.pass_seconds;
   now.wanted_error = options_.wanted_error;
   if (!convergence_.last()) return now;
@@ -206,7 +215,8 @@ RenderResult RenderLoop::finish() {
   if (const std::string fault = session_.take_fault(true); !fault.empty())
     result.unwritten.push_back({options_.film.file, fault});
   statistics_.film_stop_seconds = session_.longest_stop();
-  statistics_.first_pass_seconds = std::chrono::duration<double>(integrator_.began() - start_).count();
+  if (integrator_.began() != Clock::time_point{})
+    statistics_.first_pass_seconds = std::chrono::duration<double>(integrator_.began() - start_).count();
   statistics_.bytes_per_pixel = static_cast<double>(film_.bytes_per_pixel()) + integrator_.bytes_per_pixel();
   return result;
 }

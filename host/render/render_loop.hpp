@@ -58,6 +58,8 @@ class RenderLoop {
 
   /// Takes note of what earlier runs have done.
   void count_earlier();
+  /// Takes the totals of this run, and adds those of earlier ones.
+  void take_totals(const PassIntegrator::Totals& of_this_run);
   /// Passes so far, of earlier runs too.
   std::uint64_t passes() const { return statistics_.passes; }
   /// Runs pass number `pass` and looks at the error.

@@ -106,6 +106,19 @@ TEST_CASE("merge puts passes and crops together, into a picture and a film") {
     REQUIRE(same != whole.channels.end());
     CHECK(same->values == channel.values);
   }
+  // Devices of two kinds: their parts are merged and resumed, with a line.
+  FilmState other = read_film(folder.path("a.film"));
+  other.devices = {"another device"};
+  write_film(folder.path("other.film"), other);
+  CHECK_THAT(run({"merge", "other.film", "b.film", "-o", "merged.png"}, folder).errors,
+             Contains("the bits are those of no single device"));
+  const Finished resumed = run(Words{"render", scene, "--size", "32x24", "--photons", "3000", "--passes", "3",
+                                     "--resume", "other.film", "-o", "part.pfm"} +
+                                   global,
+                               folder);
+  CHECK_THAT(resumed.errors, Contains("of another device: the bits will be those of no single device"));
+  CHECK(read_film(folder.path("other.film")).devices.size() == 2);
+
   const Finished said = run({"merge", "a.film", "b.film", "-o", "merged.png"}, folder);
   CHECK_THAT(said.errors, Contains("wrote merged.png: 6 passes") && Contains("of the pixels"));
 
@@ -117,6 +130,9 @@ TEST_CASE("merge puts passes and crops together, into a picture and a film") {
   check_runs({"merge", "left.film", "right.film", "--film", "both.film"}, folder);
   check_runs(render({"--passes", "3", "--film", "three.film", "-o", "part.pfm"}), folder);
   check_same_film(read_film(folder.path("both.film")), read_film(folder.path("three.film")));
+  check_runs({"merge", "left.film", "right.film", "-o", "both.pfm"}, folder);
+  check_runs(render({"--passes", "3", "-o", "three.pfm"}), folder);
+  CHECK(bytes_of(folder.path("both.pfm")) == bytes_of(folder.path("three.pfm")));
 }
 
 TEST_CASE("the commands of docs/scale run, as they stand there") {

@@ -52,8 +52,8 @@ class FilmFixture {
   /// The films of these names put together as NAME.
   void merge(const std::string& name, const std::vector<std::string>& parts) {
     FilmMerger merger;
-    for (const auto& part : parts) merger.add(part, read_film(file(part)));
-    write_film(file(name), merger.finish());
+    for (const auto& part : parts) merger.add(file(part));
+    write_film(file(name), merger.whole());
   }
 
  private:
