@@ -35,11 +35,12 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
   const TemporaryFolder folder;
   const std::vector<std::pair<Words, std::string>> cases{
       {{},
-       "no command given; expected render, devices, info, explain, compare, study, selftest or schema (see "
+       "no command given; expected render, merge, devices, info, explain, compare, study, selftest or schema "
+       "(see "
        "`causticl "
        "--help`)"},
       {{"paint"},
-       "unknown command or option paint; expected render, devices, info, explain, compare, study, "
+       "unknown command or option paint; expected render, merge, devices, info, explain, compare, study, "
        "selftest or schema"},
       {{"--fast"}, "unknown command or option --fast"},
       {{"render"}, "SCENE is required (see `causticl render --help`)"},
@@ -94,7 +95,7 @@ TEST_CASE("a command line that is not understood is one line of error and exit c
       {{"render", "a.json", "-D", "=3"}, "-D: expected key=value"},
       {{"render", "a.json", "-o"}, "--output: a value is missing"},
       {{"rendr", "a.json"},
-       "unknown command or option rendr; expected render, devices, info, explain, compare, "
+       "unknown command or option rendr; expected render, merge, devices, info, explain, compare, "
        "study, selftest or schema; did you mean render?"},
       {{"Info", "a.json"}, "did you mean info?"},
       {{"--versoin"}, "did you mean --version?"},
