@@ -85,7 +85,7 @@ int render(const Options& options) {
   RenderOptions render = options.render;
   render.outputs = output_files(options, scene);
   check_outputs(options, render.outputs);
-  set_film(options, scene, render.film);
+  set_film(options, scene, render);
 
   ProgressReport progress(stderr, options.quiet);
   for (const auto& notice : scene.notices) progress.note(notice);
@@ -119,7 +119,7 @@ int render(const Options& options) {
 
 int merge(const Options& options) {
   for (const auto& file : options.render.outputs) check_output(file);
-  if (!options.film.empty()) check_writable(options.film);
+  if (!options.film.empty()) check_film_place(options.film, options.render.outputs);
   FilmMerger merger;
   for (const auto& file : options.films) merger.add(file);
   const FilmState film = merger.summary();

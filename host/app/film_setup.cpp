@@ -1,6 +1,7 @@
 #include "app/film_setup.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
@@ -63,7 +64,20 @@ RenderIdentity identity_of(const Options& options, const Scene& scene) {
           {"kernels", kernels_hash(options.render.kernel_dir)}};
 }
 
-void set_film(const Options& options, const Scene& scene, FilmOptions& film) {
+void check_film_place(const std::string& file, const std::vector<std::string>& outputs, bool is_read) {
+  check_writable(file);
+  for (const auto& output : outputs)
+    if (std::filesystem::path(output).lexically_normal() == std::filesystem::path(file).lexically_normal())
+      throw UserError(file + ": cannot be both the film and a picture; expected two names");
+  std::error_code unreadable;
+  if (!is_read && std::filesystem::is_regular_file(file, unreadable) &&
+      std::filesystem::file_size(file, unreadable) > 0 && !is_film(file))
+    throw UserError(file +
+                    ": is there already and is no film; expected a new name for the film, or that of a film");
+}
+
+void set_film(const Options& options, const Scene& scene, RenderOptions& render) {
+  FilmOptions& film = render.film;
   const bool goes_on = !film.resume.empty();
   if (options.crop) film.crop = pixels_of(*options.crop, scene);
   film.file = !options.checkpoint.empty() ? options.checkpoint
@@ -76,7 +90,7 @@ void set_film(const Options& options, const Scene& scene, FilmOptions& film) {
   if (film.file.empty() && !goes_on) return;
   film.identity = identity_of(options, scene);
   if (film.file.empty()) return;
-  check_writable(film.file);
+  check_film_place(film.file, render.outputs, film.file == film.resume);
   if (!options.checkpoint.empty() && film.file != film.resume && is_film(film.file))
     throw UserError(film.file + ": holds a film already; go on from it with --resume " + film.file +
                     ", or remove it to begin anew");

@@ -25,10 +25,12 @@ bool is_stream(const std::string& file) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-void write_stream(const std::string& file, const std::string& bytes) {
+void write_stream(const std::string& file, const std::vector<std::string_view>& pieces) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0) fail(file, std::strerror(errno));
-  const int fault = write_all(descriptor, bytes);
+  int fault = 0;
+  for (const auto& piece : pieces)
+    if (fault == 0) fault = write_all(descriptor, piece);
   if (close(descriptor) != 0 && fault == 0) fail(file, std::strerror(errno));
   if (fault != 0) fail(file, std::strerror(fault));
 }
@@ -87,7 +89,7 @@ void check_writable(const std::string& file) {
 
 void write_file(const std::string& file, const std::string& bytes) {
   if (is_stream(file)) {
-    write_stream(file, bytes);
+    write_stream(file, {bytes});
     return;
   }
   const fs::path target = link_target(file);
@@ -101,6 +103,10 @@ void write_file(const std::string& file, const std::string& bytes) {
 }
 
 void write_file_synced(const std::string& file, const std::vector<std::string_view>& pieces) {
+  if (is_stream(file)) {
+    write_stream(file, pieces);
+    return;
+  }
   const fs::path target = link_target(file);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   try {

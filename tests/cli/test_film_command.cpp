@@ -202,6 +202,19 @@ TEST_CASE("options of films that do not go together, and files that are none, ge
   check_refused(render({"--every", "5"}), folder, "expected --checkpoint FILE with it");
   check_refused(render({"--film", "b.film", "--checkpoint", "c.film"}), folder, "expected one of them");
   check_refused(render({"--film", "nowhere/b.film"}), folder, "there is no folder nowhere");
+  check_refused(render({"--film", "./c.png", "-o", "c.png"}), folder,
+                "cannot be both the film and a picture");
+  folder.write("notes.txt", "not to be lost");
+  check_refused(render({"--film", "notes.txt"}), folder, "is there already and is no film");
+  check_refused({"merge", "a.film", "--film", "notes.txt"}, folder, "is there already and is no film");
+  CHECK(bytes_of(folder.path("notes.txt")) == "not to be lost");
+  // What is no file is written to as it is.
+  check_runs(render({"--passes", "1", "--film", "/dev/null", "-o", "b.pfm"}), folder);
+  CHECK(fs::is_character_file("/dev/null"));
+  const Finished full = run(render({"--passes", "1", "--film", "/dev/full", "-o", "b.pfm"}), folder);
+  CHECK(full.exit_code == 2);
+  CHECK_THAT(full.errors, Contains("/dev/full: cannot be written: No space left on device"));
+  CHECK(fs::is_character_file("/dev/full"));
   check_refused({"merge", "a.film"}, folder, "expected -o FILE for a picture, or --film FILE");
   check_refused({"merge", "a.film", "a.film", "-o", "b.png"}, folder, "expected each pass once");
   check_refused({"merge", scene, "-o", "b.png"}, folder, "is no film");
