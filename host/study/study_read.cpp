@@ -80,7 +80,7 @@ StudyRun run_of(const Json& json) {
 
 /// Options with a value each, all of them `known`.
 Words words_of(const Json& json, const Words& known) {
-  const Words words = json.get<Words>();
+  Words words = json.get<Words>();
   require(words.size() % 2 == 0, "an option lacks its value");
   for (std::size_t i = 0; i < words.size(); i += 2)
     require(std::find(known.begin(), known.end(), words[i]) != known.end(),
