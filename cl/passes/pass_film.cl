@@ -151,7 +151,8 @@ kernel void film_statistics(global const FilmPixel *film, global PixelStatistics
   uint i = get_global_id(0);
   if (i >= count) return;
   pixels[i] = pixel_statistics(film + i, passes);
-  if (film[i].missed < 0 && *found == 0) atomic_or(found, 1u);
+  // Neighbours mostly agree: the first of a row of such pixels tells for all.
+  if (film[i].missed < 0 && (i == 0 || !(film[i - 1].missed < 0))) atomic_or(found, 1u);
 }
 
 // errors[i] = error of pixel i * stride, for i < count. With *found = 0 photons are stored of which no pixel has found any:

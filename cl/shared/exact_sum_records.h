@@ -21,7 +21,11 @@ typedef struct {
 CHECK_SIZE(ExactSum, 16);
 
 #ifdef __OPENCL_VERSION__
+#ifdef CAUSTICL_NO_INLINE  // see prelude.cl
+#define SHARED_INLINE static inline
+#else
 #define SHARED_INLINE __attribute__((always_inline)) static inline
+#endif
 #define SHARED_FLOAT_BITS(x) as_uint(x)
 #else
 #define SHARED_INLINE inline
