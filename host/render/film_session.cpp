@@ -17,8 +17,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-FilmSession::FilmSession(const Scene& scene, const RenderOptions& options)
-    : scene_(scene), options_(options) {
+FilmSession::FilmSession(const Scene& scene, const RenderOptions& options) : options_(options) {
   const FilmOptions& film = options.film;
   base_.identity = film.identity;
   base_.width = scene.width;

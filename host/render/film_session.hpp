@@ -45,7 +45,6 @@ class FilmSession {
   double longest_stop() const { return longest_stop_; }
 
  private:
-  const Scene& scene_;
   const RenderOptions& options_;
   std::optional<FilmState> earlier_;
   FilmState base_;  // all but what a film adds up
