@@ -47,13 +47,20 @@ INLINE real max_component(real3 v) { return max(v.x, max(v.y, v.z)); }
 // or one ray and a packet, must agree to the bit or on a sign, they take this.
 INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // Rows of an affine map applied to a point and to a direction.
-INLINE real3 transform_point(global const float4 *rows, real3 p) {
-  real3 r0 = convert_real3(rows[0].xyz), r1 = convert_real3(rows[1].xyz), r2 = convert_real3(rows[2].xyz);
-  return (real3)(dot3(r0, p) + rows[0].w, dot3(r1, p) + rows[1].w, dot3(r2, p) + rows[2].w);
+INLINE real3 affine_row(global const float4 *rows, uint row) {
+  global const float *numbers = (global const float *)(rows + row);  // loads of whole vectors keep loops scalar
+  return (real3)(numbers[0], numbers[1], numbers[2]);
+}
+INLINE real3 affine_origin(global const float4 *rows) {
+  global const float *numbers = (global const float *)rows;
+  return (real3)(numbers[3], numbers[7], numbers[11]);
 }
 INLINE real3 transform_vector(global const float4 *rows, real3 v) {
-  return (real3)(dot3(convert_real3(rows[0].xyz), v), dot3(convert_real3(rows[1].xyz), v),
-                 dot3(convert_real3(rows[2].xyz), v));
+  return (real3)(dot3(affine_row(rows, 0), v), dot3(affine_row(rows, 1), v), dot3(affine_row(rows, 2), v));
+}
+INLINE real3 transform_point(global const float4 *rows, real3 p) {
+  real3 moved = transform_vector(rows, p), origin = affine_origin(rows);
+  return (real3)(moved.x + origin.x, moved.y + origin.y, moved.z + origin.z);
 }
 // A normal by the transpose of the inverse's rows: n_world = to_local^T n_local (not normalised).
 INLINE real3 transform_normal(global const float4 *inverse_rows, real3 n) {

@@ -44,6 +44,9 @@ INLINE real unit_scale(real size) {
 #endif
 }
 
+// v over its length, whatever that is.
+INLINE real3 unit3_of_any(real3 v) { return unit3(scaled3(unit_scale(max_component(abs3(v))), v)); }
+
 // The next number beyond x on the side that `side` has the sign of; x where that is 0.
 INLINE real next_beyond(real x, real side) {
 #ifdef CAUSTICL_DOUBLE

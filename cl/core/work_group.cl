@@ -30,3 +30,17 @@ INLINE uint list_reserve(uint count, volatile global uint *total) {
   if (first >= LIST_LIMIT) atomic_sub(total, count);
   return first;
 }
+
+// Where the first item of a group does the work of all, and of several of its items more: the share of this group in `total`
+// pieces, [*first, *end). False on other items, and where nothing is left for the group. Few groups have something to
+// do, spread evenly over all, since threads take runs of neighbouring groups.
+INLINE bool group_share(uint total, uint an_item, uint *first, uint *end) {
+  if (get_local_id(0) != 0 || total == 0) return false;
+  uint count = (uint)get_local_size(0) * an_item;
+  ulong busy = (total + count - 1u) / count, group = get_group_id(0), groups = get_num_groups(0);
+  uint before = (uint)(group * busy / groups);
+  if ((group + 1) * busy / groups == before) return false;
+  *first = before * count;
+  *end = *first + min(count, total - *first);
+  return *first < total;
+}

@@ -74,6 +74,7 @@ typedef struct {
   Interior interior;  // of the segment by which the path came, or with nested dielectrics that of the shadow ray
   real3 wi;           // along which the path arrives
   real3 n;            // the facing normal
+  bool outside;       // known to be on no body and in none, nor in the medium: nothing is absorbed on the way there
 } LitPoint;
 
 // Radiance from one emitter that a rough lobe turns to the path, weighted against BSDF sampling. `behind` is the interior
@@ -120,8 +121,10 @@ INLINE LightCandidate sample_light_unoccluded(const Scene *scene, uint chosen, c
   real cosine = dot3(light.direction, n);
   // The true surface must be seen from the same side by the light and by the path.
   bool same_side = dot3(light.direction, g) * dot3(wi, g) < 0;
-  if (HAS(EFFECT_NESTED) && light_covered(scene, point->interior, origin, &light)) light.weight = (real3)(0, 0, 0);
-  attenuate_light(scene, point->interior, surface, &light);
+  if (!point->outside) {
+    if (HAS(EFFECT_NESTED) && light_covered(scene, point->interior, origin, &light)) light.weight = (real3)(0, 0, 0);
+    attenuate_light(scene, point->interior, surface, &light);
+  }
   real weight = 1;
   if (weigh_bsdf) weight = power_weight(light.pdf, cosine * INV_PI);
   if (HAS(EFFECT_PLASTIC) && bsdf->coated) weight *= fresnel_transmittance(cosine, bsdf->ior);

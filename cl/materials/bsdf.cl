@@ -11,18 +11,40 @@
   if (HAS(effect)) name##_read(material, &bsdf);
 #define READ_ROW(x, NAME, number, name, effect, family, layers, fields, properties, ...) READ_##fields(name, effect)
 
-INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
-                    real2 uv) {
+// Puts the texture of a material, if it has one, in the place of its colour. Without a branch, for loops that are to be
+// vectorised: there are textures where there is the effect.
+INLINE void bsdf_texture_soa(global const Material *material, global const Texture *textures, global const half *texels,
+                             real2 uv, Bsdf *bsdf) {
+  uint number = material->color_texture;
+  Texel texel = texture_lookup(textures + (max(number, 1u) - 1u), texels, uv);
+  bool textured = number != 0;
+  bsdf->color = choose3(textured, (real3)(texel.r, texel.g, texel.b), bsdf->color);
+  bool diffuse = textured && (material->flags & MATERIAL_ALPHA_DIFFUSE) != 0 && texel.a > 0;
+  bsdf->kind = diffuse ? MATERIAL_DIFFUSE : bsdf->kind;
+}
+
+// A material of one colour.
+INLINE Bsdf bsdf_untextured(global const Material *material) {
   global const float *color = (global const float *)&material->color;
   Bsdf bsdf = {material->kind, (real3)(color[0], color[1], color[2]), color[3], 0,
                (real3)(0, 0, 0), (real3)(0, 0, 0), 0, false};
   if (HAS(EFFECT_ROUGH)) bsdf.alpha = lobe_alpha(material->alpha, transmits(bsdf.kind) ? bsdf.ior : 0);
   MATERIAL_TABLE(READ_ROW, )
-  if (HAS(EFFECT_TEXTURES) && material->color_texture != 0) {
-    real4 texel = texture_lookup(textures + material->color_texture - 1, texels, uv);
-    bsdf.color = texel.xyz;
-    if ((material->flags & MATERIAL_ALPHA_DIFFUSE) && texel.w > 0) bsdf.kind = MATERIAL_DIFFUSE;
-  }
+  return bsdf;
+}
+
+INLINE Bsdf bsdf_at(global const Material *material, global const Texture *textures, global const half *texels,
+                    real2 uv) {
+  Bsdf bsdf = bsdf_untextured(material);
+  if (HAS(EFFECT_TEXTURES) && material->color_texture != 0) bsdf_texture_soa(material, textures, texels, uv, &bsdf);
+  return bsdf;
+}
+
+// A material of one colour that is Lambert's.
+INLINE Bsdf lambert_untextured(global const Material *material) {
+  global const float *color = (global const float *)&material->color;
+  Bsdf bsdf = {MATERIAL_DIFFUSE, (real3)(color[0], color[1], color[2]), 1, 0,
+               (real3)(0, 0, 0), (real3)(0, 0, 0), 0, false};
   return bsdf;
 }
 

@@ -5,11 +5,8 @@
 #include "photons/emission_map.cl"
 #include "photons/metropolis_photons.cl"
 #include "photons/photon_interaction.cl"
-#include "traversal/brute_force.cl"
-#include "traversal/kdtree_stream.cl"
-#if defined(STREAM_BRUTE_FORCE) || defined(KDTREE_STREAMS)
-#define STREAM_BATCHED  // all rays of a batch at once
-#endif
+#include "core/work_group.cl"
+#include "traversal/ray_stream.cl"
 
 // Sets the random numbers of photons apart from those of camera paths.
 #define PHOTON_SEED 0x9e3779b9u
@@ -78,6 +75,7 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, Guidance by,
     if (HAS(EFFECT_AIMED_PHOTONS)) flux = scaled3(weight, flux);
     if (HAS(EFFECT_GUIDED_PHOTONS)) flux = scaled3(batch->flux[0][i], flux);
     PhotonState photon;
+    photon.lambert = false;
     photon.ray = ray, photon.flux = flux;
     photon.prefix = PREFIX_DIRECT, photon.mark = 0, photon.interior = interior_none();
     if (HAS(EFFECT_HORIZON) && light_is(scene.emitters + emitter, LIGHTS_WITH(BEYOND_SCENE))) photon.mark = FROM_BEYOND;
@@ -92,33 +90,6 @@ OUTLINE void stream_emit(const Scene *from, const Params *settings, Guidance by,
   }
 }
 
-// Finds where each photon's ray ends.
-OUTLINE void stream_trace(const Scene *scene, uint count, PhotonStream *batch, volatile global Counters *counters) {
-  const Geometry *g = &scene->geometry;
-  for (uint i = 0; i < count; ++i) {
-    Hit hit = hit_none(INFINITY);
-#ifdef STREAM_BATCHED
-    planes_closest(g, stream_ray(batch, i), &hit);
-#else
-    geometry_closest(g, stream_ray(batch, i), &hit);
-    count_diagnostics(hit.diagnostics, counters);
-#endif
-    stream_put_hit(batch, i, hit);
-  }
-#ifdef STREAM_BATCHED
-  RayArrays rays = RAY_ARRAYS(batch);
-#endif
-#if defined(STREAM_BRUTE_FORCE)
-  uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &rays);
-  if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
-#elif defined(STREAM_BATCHED)
-  if (!HAS(EFFECTS_IN_LEAVES)) return;
-  uint diagnostics[STREAM_CAPACITY];
-  kdtree_stream(g->nodes, g->blocks, g->shapes, g->curves, &rays, count, diagnostics);
-  for (uint i = 0; i < count; ++i) count_diagnostics(diagnostics[i], counters);
-#endif
-}
-
 // Puts what photons in a gap of no width meet next in the place of what their rays have met.
 OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *batch) {
   for (uint i = 0; i < count; ++i) {
@@ -129,28 +100,75 @@ OUTLINE void stream_contacts(const Scene *scene, uint count, PhotonStream *batch
   }
 }
 
+// Whether photon `i` is outside of all bodies and on none.
+INLINE bool stream_outside(const Scene *scene, const PhotonStream *batch, uint i) {
+  const uint k = HAS(EFFECT_NESTED) ? i : 0;
+  return is_outside(scene, HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM) ? batch->interior[i] : interior_none(), batch->media + k);
+}
+
+// Takes photon `i` past its hit. Of *photon it is known whether that is a Lambert vertex.
+INLINE void stream_event(const Scene *scene, const Params *params, uint i, PhotonStream *batch, PhotonState *photon) {
+  RandomStream stream = stream_random(params, batch, i);
+  Hit hit = stream_hit(batch, i);
+  uint events = 0;
+  photon->diagnostics = 0;
+  if (photon->lambert || HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
+    stream_get(batch, i, photon);
+    Photon record = {{0, 0, 0}, 0, 0, 0};
+    events = photon_interact(scene, params, stream, batch->bounce[i], hit, photon, &record);
+    stream_put(batch, i, photon);
+    stream_put_record(batch, i, &record);
+  }
+  batch->events[i] = events;
+}
+
+#if VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_LAMBERT)) && !VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))
+// Takes the photons at Lambert vertices past their hits. `others` become the rest of `count`; returns how many these are.
+OUTLINE uint stream_scatter_lambert(const Scene *from, const Params *settings, uint count, PhotonStream *batch, uint *others) {
+  const Scene scene = *from;
+  const Params params = *settings;
+  uint lambert[STREAM_CAPACITY], lambert_count = 0, other_count = 0;
+  for (uint i = 0; i < count; ++i) {
+    uint is_lambert = stream_outside(&scene, batch, i) && meets_lambert(&scene, stream_hit(batch, i));
+    lambert[lambert_count] = i, lambert_count += is_lambert;
+    others[other_count] = i, other_count += is_lambert ^ 1u;
+  }
+#pragma clang loop vectorize(assume_safety)
+  for (uint k = 0; k < lambert_count; ++k) {
+    PhotonState photon;
+    photon.lambert = true;
+    stream_event(&scene, &params, lambert[k], batch, &photon);
+  }
+  return other_count;
+}
+#define LAMBERT_APART
+#endif
+
 // Takes each photon past its hit.
 OUTLINE void stream_scatter(const Scene *from, const Params *settings, uint count, PhotonStream *batch,
-                          volatile global Counters *counters) {
+                            volatile global Counters *counters) {
+#ifdef LAMBERT_APART
+  uint others[STREAM_CAPACITY];
+  count = stream_scatter_lambert(from, settings, count, batch, others);
+  for (uint k = 0; k < count; ++k) {
+    PhotonState photon;
+    photon.lambert = false;
+    stream_event(from, settings, others[k], batch, &photon);
+    if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
+  }
+#else
   const Scene scene = *from;
   const Params params = *settings;
 #if VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) {
-    RandomStream stream = stream_random(&params, batch, i);
-    Hit hit = stream_hit(batch, i);
-    uint events = 0;
-    if (HAS(EFFECT_MEDIUM) || hit.primitive != HIT_NONE) {
-      PhotonState photon = stream_get(batch, i);
-      Photon record = {{0, 0, 0}, 0, 0, 0};
-      events = photon_interact(&scene, &params, stream, batch->bounce[i], hit, &photon, &record);
-      if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
-      stream_put(batch, i, &photon);
-      stream_put_record(batch, i, &record);
-    }
-    batch->events[i] = events;
+    PhotonState photon;
+    photon.lambert = false;
+    stream_event(&scene, &params, i, batch, &photon);
+    if (HAS(EFFECT_NESTED)) count_diagnostics(photon.diagnostics, counters);
   }
+#endif
 }
 
 // Counts the pilot paths that land as parts of caustics, by the cell that they left by.
@@ -225,10 +243,13 @@ OUTLINE uint stream_paths(const Scene *scene, const Params *params, Guidance by,
       alive = stream_compact(alive, alive + fresh, &batch);
     }
     rays += alive;
-    stream_trace(scene, alive, &batch, counters);
+    RayArrays ray_arrays = RAY_ARRAYS(&batch);
+    rays_closest(&scene->geometry, &ray_arrays, alive, counters);
     if (HAS(EFFECT_NESTED)) stream_contacts(scene, alive, &batch);
     uint padded = stream_padded(alive);
-    for (uint i = alive; i < padded; ++i) batch.primitive[i] = HIT_NONE;
+#ifdef LAMBERT_APART
+    padded = alive;
+#endif
     stream_scatter(scene, params, HAS(EFFECT_MEDIUM) ? alive : padded, &batch, counters);
     if (HAS(EFFECT_GUIDED_PHOTONS) && params->photon_role >= PHOTONS_PILOT_PATHS)
       stream_guide(by.guide, params, alive, &batch, counters);
@@ -250,19 +271,10 @@ kernel void trace_photons(SCENE_PARAMETERS, global Photon *photons, volatile glo
                           Params params, global uint2 *seeds, volatile global uint *accepted, global const uint *visibility,
                           Grid cells, global const EmissionCell *emission, uint emission_cells,
                           global const ProjectionCell *projection_cells, volatile global uint *projection_deposits) {
-  uint first = get_global_id(0), count = 1;
-  if (STREAM_CAPACITY > 1u) {
-    if (get_local_id(0) != 0 || params.photon_count == 0) return;
-    // Few groups have something to do, spread evenly over all: threads take runs of neighbouring groups.
-    count = (uint)get_local_size(0) * PHOTONS_AN_ITEM;
-    ulong busy = (params.photon_count + count - 1u) / count, group = get_group_id(0), groups = get_num_groups(0);
-    uint before = (uint)(group * busy / groups);
-    if ((group + 1) * busy / groups == before) return;
-    first = before * count;
-  }
+  uint first = get_global_id(0), end = first + 1;
+  if (STREAM_CAPACITY > 1u && !group_share(params.photon_count, PHOTONS_AN_ITEM, &first, &end)) return;
   if (first >= params.photon_count) return;
   SCENE_INIT(params);
-  uint end = first + min(count, params.photon_count - first);
   Guide guide = {seeds, accepted, visibility, cells, emission, emission_cells};
   Aim aim = {projection_cells, projection_deposits};
   Guidance guidance = {&guide, &aim};

@@ -102,7 +102,7 @@ INLINE Bsdf camera_path_bsdf(const Scene *scene, CameraPath *path, const Boundar
 }
 
 INLINE LitPoint camera_path_lit_point(const CameraPath *path, const Bsdf *bsdf, const Surface *surface) {
-  LitPoint point = {bsdf, surface, path->interior, path->ray.direction, facing_normal(surface, path->ray.direction)};
+  LitPoint point = {bsdf, surface, path->interior, path->ray.direction, facing_normal(surface, path->ray.direction), false};
   return point;
 }
 

@@ -1,16 +1,17 @@
-// Camera paths that have come to a diffuse surface, in a batch: their visible points, and direct light there,
+// Camera paths that have come to a Lambert vertex, in a batch: their visible points, and direct light there,
 // by loops over them which PoCL's compiler turns into vector code (see vector.cl and photon_stream.cl).
 #include "photons/kernel_area.cl"
 #include "lights/direct.cl"
 #include "photons/grid.cl"
 #include "photons/photon_stream.cl"
+#include "paths/lambert_vertex.cl"
 #include "sampling/sobol.cl"
 #include "shapes/ray_components.cl"
-#include "traversal/brute_force.cl"
+#include "traversal/ray_stream.cl"
 #include "traversal/triangle_packet.cl"
 
 // Light passes ask for more than a first diffuse vertex keeps.
-#define DIFFUSE_VERTICES_BATCHED VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_DIFFUSE_VERTICES) | OUTPUT_LIGHT_PASSES)
+#define DIFFUSE_VERTICES_BATCHED VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_LAMBERT) | OUTPUT_LIGHT_PASSES)
 
 #if DIFFUSE_VERTICES_BATCHED && defined(STREAM_BRUTE_FORCE)
 #define SHADOWS_BY_BRUTE_FORCE
@@ -60,6 +61,7 @@ typedef struct {
   ARRIVAL_COMPONENTS(COMPONENT_FIELD, )
   POINT_COMPONENTS(COMPONENT_FIELD, )
   uint normal[STREAM_CAPACITY];
+  uint non_finite[STREAM_CAPACITY];  // 1 where its texture is no number
   uint emitter[STREAM_CAPACITY];
   real random[4][STREAM_CAPACITY];  // by which it is chosen, and the place on it
   LIGHT_COMPONENTS(COMPONENT_FIELD, )
@@ -124,16 +126,19 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
   geometry_surface_soa(&scene->geometry, ray, hit, &surface);
   global const Material *material = scene->materials + surface.material;
   real3 throughput = (real3)(r->throughput[0][i], r->throughput[1][i], r->throughput[2][i]);
-  // surface_emission() in its parts: as a whole PoCL does not vectorise it.
-  real3 emission = emission_at(material, &surface, ray.direction);
-  if (HAS(EFFECTS_OF_LIGHTS(SURFACE))) emission = own_emission(scene, material, &surface, emission);
-  emission = mul3(throughput, emission);
+  real3 emission = mul3(throughput, emission_at(material, &surface, ray.direction));
   bool counted = r->counted[i] != 0;
   r->radiance[0][i] += counted ? 0 : emission.x;
   r->radiance[1][i] += counted ? 0 : emission.y;
   r->radiance[2][i] += counted ? 0 : emission.z;
 
-  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
+  Bsdf bsdf = lambert_untextured(material);
+  if (HAS(EFFECT_TEXTURES)) {
+    bsdf_texture_soa(material, scene->textures, scene->texels, surface.uv, &bsdf);
+    bool finite = isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z);
+    r->non_finite[i] = finite ? 0u : 1u;
+    bsdf.color = choose3(finite, bsdf.color, (real3)(0, 0, 0));
+  }
   real3 weight = scaled3(INV_PI, mul3(throughput, bsdf.color));
   weight = choose3(r->bounce[i] != params->max_depth && max_component(weight) > 0, weight, (real3)(0, 0, 0));
   real3 g = surface.geometric_normal;
@@ -171,15 +176,15 @@ INLINE void diffuse_vertex_light(const Scene *scene, DiffuseVertices *r, uint i)
   surface.error = at.error;
   real4 random = (real4)(r->random[0][i], r->random[1][i], r->random[2][i], r->random[3][i]);
   Bsdf bsdf;
-  bsdf.coated = false;  // of a Bsdf this alone is asked for, and without EFFECT_PLASTIC not even this
-  LitPoint point = {&bsdf, &surface, interior_none(), diffuse_vertex_ray(r, i).direction, at.facing};
+  bsdf.kind = MATERIAL_DIFFUSE, bsdf.coated = false;  // no more is asked for
+  LitPoint point = {&bsdf, &surface, interior_none(), diffuse_vertex_ray(r, i).direction, at.facing, true};
   LightCandidate light = sample_light_unoccluded(scene, r->emitter[i], &point, at.weight, random, false);
   diffuse_vertex_put_light(r, i, light);
 }
 
 OUTLINE void diffuse_vertices_sample_lights(const Scene *from, uint count, DiffuseVertices *r) {
   const Scene scene = *from;
-#if DIFFUSE_VERTICES_BATCHED
+#if DIFFUSE_VERTICES_BATCHED && VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_LIGHT_SAMPLES))
 #pragma clang loop vectorize(assume_safety)
 #endif
   for (uint i = 0; i < count; ++i) diffuse_vertex_light(&scene, r, i);
@@ -190,30 +195,37 @@ INLINE bool diffuse_vertex_has_shadow_ray(const DiffuseVertices *r, uint i) {
   return max(r->reflected[0][i], max(r->reflected[1][i], r->reflected[2][i])) > 0;
 }
 
-// Leaves light alone that is positive and that nothing is in the way of. Returns the number of rays.
-OUTLINE uint diffuse_vertices_occlusion(const Scene *scene, uint count, DiffuseVertices *r, volatile global Counters *counters) {
-  uint rays = 0;
-#ifdef SHADOWS_BY_BRUTE_FORCE
+// Leaves light alone that is positive and that nothing is in the way of. `count` paths are padded to `padded`. Returns the
+// number of rays.
+OUTLINE uint diffuse_vertices_occlusion(const Scene *scene, uint count, uint padded, DiffuseVertices *r,
+                                        volatile global Counters *counters) {
   const Geometry *g = &scene->geometry;
-  for (uint i = 0; i < count; ++i) {
-    bool asks = diffuse_vertex_has_shadow_ray(r, i);
+  uint rays = 0;
+  for (uint i = 0; i < padded; ++i) {
+    bool asks = i < count && diffuse_vertex_has_shadow_ray(r, i);
     rays += asks ? 1u : 0u;
     r->t[i] = asks ? r->distance[i] : -INFINITY;
     r->primitive[i] = HIT_NONE;
   }
   RayArrays shadows = RAY_ARRAYS(r);
+  if (HAS(EFFECT_PLANES)) planes_closest_all(g->shapes, g->plane_count, padded, &shadows);
+#ifdef SHADOWS_BY_BRUTE_FORCE
   uint cut_short = brute_force_closest(g->nodes, g->blocks, g->shapes, g->curves, g->plane_count, count, &shadows);
   if (cut_short > 0) atomic_add(&counters->traversal_bound, cut_short);
+#else
+  uint diagnostics = 0;
+  for (uint i = 0; i < count; ++i) {
+    if (r->t[i] > 0 && r->primitive[i] == HIT_NONE &&
+        bounded_occluded(g, diffuse_vertex_ray(r, i), r->t[i], &diagnostics))
+      r->primitive[i] = 0;
+    count_diagnostics(diagnostics, counters);
+    diagnostics = 0;
+  }
+#endif
   for (uint i = 0; i < count; ++i) {
     bool arrives = diffuse_vertex_has_shadow_ray(r, i) && r->primitive[i] == HIT_NONE;
     for (uint k = 0; k < 3; ++k) r->reflected[k][i] = arrives ? r->reflected[k][i] : 0;
   }
-#else
-  for (uint i = 0; i < count; ++i) {
-    if (!diffuse_vertex_has_shadow_ray(r, i) || occluded_along(scene, diffuse_vertex_ray(r, i), r->distance[i], &rays, counters))
-      r->reflected[0][i] = r->reflected[1][i] = r->reflected[2][i] = 0;
-  }
-#endif
   return rays;
 }
 
@@ -255,12 +267,17 @@ OUTLINE uint diffuse_vertices_finish(const Scene *scene, const Params *params, u
   uint padded = stream_padded(count);
   for (uint i = count; i < padded; ++i) diffuse_vertices_repeat(r, i);
   diffuse_vertices_find_points(scene, params, padded, r);
+  if (HAS(EFFECT_TEXTURES)) {
+    uint non_finite = 0;
+    for (uint i = 0; i < count; ++i) non_finite += r->non_finite[i];
+    if (non_finite > 0) atomic_add(&counters->non_finite, non_finite);
+  }
   uint rays = diffuse_vertices_probe(scene, params, count, r, pixels, counters);
   bool lit = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   if (lit) {
     for (uint i = 0; i < padded; ++i) r->emitter[i] = emitter_choose(scene, r->random[0][i], r->random[3][i]);
     diffuse_vertices_sample_lights(scene, padded, r);
-    rays += diffuse_vertices_occlusion(scene, count, r, counters);
+    rays += diffuse_vertices_occlusion(scene, count, padded, r, counters);
   }
   diffuse_vertices_store(params, count, r, lit, points);
   return rays;

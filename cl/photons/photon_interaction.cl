@@ -4,6 +4,7 @@
 #include "lights/horizon.cl"
 #include "photons/grid.cl"
 #include "photons/photon_stream.cl"
+#include "paths/lambert_vertex.cl"
 
 // Flux in stored units, dithered so that its expectation is exact; *saturated where it does not fit.
 INLINE uint flux_quantise(real flux, real random, bool *saturated) {
@@ -59,10 +60,13 @@ INLINE bool photon_in_medium(const Scene *scene, const Params *params, RandomStr
 }
 
 // Puts the adjoint of what camera paths do in place of *next where the shading normal is not the geometric one.
-INLINE void adjoint_where_bent(const Bsdf *bsdf, const Surface *surface, real3 direction, real4 random, BsdfSample *next) {
+INLINE void adjoint_where_bent(const PhotonState *photon, const Bsdf *bsdf, const Surface *surface, real3 direction,
+                               real4 random, BsdfSample *next) {
+  const bool lambert = photon->lambert;
   bool bent = has_bent_normal(surface);
-  if (VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))) {
-    BsdfSample adjoint = adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
+  if (lambert || VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS))) {
+    BsdfSample adjoint = lambert ? adjoint_diffuse_sample(bsdf, surface, direction, random)
+                                 : adjoint_bsdf_sample_smooth(bsdf, surface, direction, random);
     next->direction = choose3(bent, adjoint.direction, next->direction);
     next->weight = choose3(bent, adjoint.weight, next->weight);
   } else if (bent) {
@@ -86,11 +90,29 @@ INLINE uint photon_deposit(const LitPoint *at, const PhotonState *photon, real3 
   return stored;
 }
 
+// The Bsdf of the surface that a photon comes to; *events tells where its texture is no number.
+INLINE Bsdf photon_bsdf(const Scene *scene, const PhotonState *photon, global const Material *material, real2 uv,
+                        uint *events) {
+  const bool in_batch = photon->lambert || VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS));
+  Bsdf bsdf = photon->lambert ? lambert_untextured(material)
+              : in_batch      ? bsdf_untextured(material)
+                              : bsdf_at(material, scene->textures, scene->texels, uv);
+  if (HAS(EFFECT_TEXTURES)) {
+    if (in_batch) bsdf_texture_soa(material, scene->textures, scene->texels, uv, &bsdf);
+    bool finite = isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z);
+    *events |= finite ? 0u : EVENT_NON_FINITE;
+    bsdf.color = choose3(finite, bsdf.color, (real3)(0, 0, 0));
+  }
+  return bsdf;
+}
+
 // Takes a photon from its hit number `bounce` to its next ray. Returns EVENT_* bits; what `photon` and
 // `record` hold where these say that it ends, or leaves no record, is of no use. Without a medium only where
 // something is hit.
 INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStream stream, uint bounce, Hit hit,
                          PhotonState *photon, Photon *record) {
+  const bool lambert = photon->lambert;
+  const bool in_batch = lambert || VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)), on_body = nested(scene) && !lambert;
   bool shadow_rays = HAS(EFFECT_SHADOW_RAYS) && params->shadow_rays != 0;
   uint events = 0;
   if (HAS(EFFECT_MEDIUM) && photon_in_medium(scene, params, stream, bounce, hit, photon, record, &events))
@@ -98,32 +120,29 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   if (HAS(EFFECT_MEDIUM) && hit.primitive == HIT_NONE) return events;
   real3 direction = photon->ray.direction;
   Surface surface;
-  geometry_surface_soa(&scene->geometry, photon->ray, hit, &surface);
+  if (in_batch) geometry_surface_soa(&scene->geometry, photon->ray, hit, &surface);
+  else geometry_surface(&scene->geometry, photon->ray, hit, &surface);
   Interface interface;
-  if (nested(scene)) {
+  if (on_body) {
     interface = media_arrive(scene, &photon->media, photon->ray, &hit, &surface, &photon->diagnostics);
     photon->interior = interior_of_stack(scene, &interface.before);
   }
   global const Material *material = scene->materials + surface.material;
-  Bsdf bsdf = bsdf_at(material, scene->textures, scene->texels, surface.uv);
-  if (HAS(EFFECT_TEXTURES) && !isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z)) {
-    events |= EVENT_NON_FINITE;
-    bsdf.color = (real3)(0, 0, 0);
-  }
-  if (nested(scene)) {
+  Bsdf bsdf = photon_bsdf(scene, photon, material, surface.uv, &events);
+  if (on_body) {
     if (interface.crosses)
       media_bsdf(scene, &interface, &surface, direction, random_at(stream, bounce, DIM_CHANNEL).x, &bsdf, &photon->flux);
-  } else if (HAS(EFFECT_DISPERSION))
+  } else if (!lambert && HAS(EFFECT_DISPERSION))
     disperse(&bsdf, material, scene->inverse_wavelength2, random_at(stream, bounce, DIM_CHANNEL).x, &photon->flux);
   real3 flux = photon->flux, n = facing_normal(&surface, direction);
   real4 random = random_at(stream, bounce, DIM_BSDF);
   real before = max_component(flux);
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
+  if (!lambert && HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM)) {
     if (!nested(scene)) photon->interior = interior_before(photon->interior, material, &surface, direction);
     flux *= interior_transmittance(photon->interior, hit.t);
   }
 
-  bool layered = is_layered(bsdf.kind), diffuse = is_diffuse(bsdf.kind);
+  bool layered = !lambert && is_layered(bsdf.kind), diffuse = is_diffuse(bsdf.kind);
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
   bool counted = shadow_rays && bounce == 0, far = is_far(&scene->geometry, hit, surface.position);
@@ -132,19 +151,20 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   bool deposits_here = keeps_photons(&bsdf, material);
   if (!HAS(EFFECT_GUIDED_PHOTONS)) deposits_here = deposits_here && !counted;
   if (deposits_here) {
-    LitPoint at = {&bsdf, &surface, photon->interior, direction, n};
+    LitPoint at = {&bsdf, &surface, photon->interior, direction, n, false};
     uint stored = photon_deposit(&at, photon, flux, random_at(stream, bounce, DIM_QUANTISE), record);
     events |= counted ? EVENT_DEPOSITED_ELSEWHERE : stored;
   }
   bool alive = !(diffuse && black) && bounce + 1 != params->max_depth;
-  if (!VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) && !alive) return events;
+  if (!in_batch && !alive) return events;
 
   if (layered) choose_lobe(&bsdf, direction, n, random.z);
   photon->prefix = prefix_after(photon->prefix, bsdf_is_specular(&bsdf));
   photon->mark = is_diffuse(bsdf.kind) ? INDIRECT_PHOTON : photon->mark;
-  BsdfSample next = VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
+  BsdfSample next = lambert    ? diffuse_sample(&bsdf, &surface, direction, n, random)
+                    : in_batch ? bsdf_sample_smooth(&bsdf, &surface, direction, n, random, false)
                                : bsdf_sample(&bsdf, &surface, direction, random, false);
-  if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(&bsdf, &surface, direction, random, &next);
+  if (HAS(EFFECT_SMOOTH)) adjoint_where_bent(photon, &bsdf, &surface, direction, random, &next);
   if (far && is_diffuse(bsdf.kind))
     next = horizon_sample(&scene->geometry, &bsdf, &surface, direction, n, random);
   flux = mul3(flux, next.weight);
@@ -154,10 +174,10 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   real survival = fmin(max_component(flux) / before, (real)1);
   flux = quotient3(flux, survival);
   alive = alive && random.w < survival && max_component(flux) > 0;
-  if (!VECTORISED(EFFECTS_NOT_BATCHED(SCALAR_EVENTS)) && !alive) return events;
-  if (HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
+  if (!in_batch && !alive) return events;
+  if (!lambert && HAS(EFFECT_ABSORPTION | EFFECT_MEDIUM))
     photon->interior = interior_after(photon->interior, material, &surface, next.direction);
-  if (nested(scene)) {
+  if (on_body) {
     photon->ray.origin = media_depart(scene, &interface, &surface, hit, direction, next.direction, &photon->media);
     photon->interior = interior_of_stack(scene, &photon->media.stack);
   } else {

@@ -13,12 +13,6 @@
 #define PHOTONS_AN_ITEM 4u
 #define PATH_REGENERATION 16u
 
-// Whether the rays of a batch meet all primitives in place of walking the tree each: the host asks for it where they are
-// few.
-#if defined(BRUTE_FORCE) && STREAM_CAPACITY > 1u
-#define STREAM_BRUTE_FORCE
-#endif
-
 // What happened to a photon at one event of its path, as bits.
 #define EVENT_ALIVE 1u       // it goes on
 #define EVENT_STORED 2u      // `deposited` holds its record
@@ -39,6 +33,7 @@ typedef struct {
   // DIAGNOSTIC_* of the present event, with EFFECT_NESTED. Here, since a variable of its own that the event is given a pointer to
   // keeps the loop over events scalar.
   uint diagnostics;
+  bool lambert;  // at a Lambert vertex: a constant, by which the compiler leaves out what other surfaces ask for
 } PhotonState;
 
 // What a batch keeps of each, as lists of components.cl. Fields that not every batch has stand last, so that the others keep
@@ -54,8 +49,8 @@ typedef struct {
   ROW(x, SCALAR, uint, normal, normal, ALWAYS) \
   ROW(x, SCALAR, uint, flux_rg, flux_rg, ALWAYS) \
   ROW(x, SCALAR, uint, flux_b, flux_b, ALWAYS)
-#define PHOTON_EFFECT_COMPONENTS(ROW, x) /* of PhotonState, with an effect */ \
-  ROW(x, SCALAR, uint, prefix, prefix, OUTPUT_LIGHT_PASSES) \
+#define PHOTON_PREFIX_COMPONENTS(ROW, x) ROW(x, SCALAR, uint, prefix, prefix, OUTPUT_LIGHT_PASSES)
+#define PHOTON_BODY_COMPONENTS(ROW, x) /* of PhotonState, what bodies it is in */ \
   ROW(x, SCALAR, Interior, interior, interior, EFFECT_ABSORPTION | EFFECT_MEDIUM) \
   ROW(x, SCALAR, PathMedia, media, media, EFFECT_NESTED)
 // `copy` and `fresh` as in RandomStream; `seed` is its place in the list of seeds; `useful` not 0 where it has landed where the
@@ -73,7 +68,8 @@ typedef struct {
   HIT_COMPONENTS(COMPONENT_FIELD, )
   uint events[STREAM_CAPACITY];  // EVENT_* bits
   PHOTON_RECORD_COMPONENTS(COMPONENT_FIELD, )
-  PHOTON_EFFECT_COMPONENTS(COMPONENT_FIELD, )
+  PHOTON_PREFIX_COMPONENTS(COMPONENT_FIELD, )
+  PHOTON_BODY_COMPONENTS(COMPONENT_FIELD, )
   METROPOLIS_COMPONENTS(COMPONENT_FIELD, )
 } PhotonStream;
 
@@ -92,20 +88,26 @@ INLINE Hit stream_hit(const PhotonStream *state, uint i) {
 
 INLINE void stream_put_hit(PhotonStream *state, uint i, Hit hit) { HIT_COMPONENTS(STORE_ENTRY, hit) }
 
-INLINE PhotonState stream_get(const PhotonStream *state, uint i) {
-  PhotonState photon;
-  photon.prefix = PREFIX_DIRECT;
-  photon.diagnostics = 0;
-  RAY_COMPONENTS(LOAD_ENTRY, photon.ray)
-  PHOTON_COMPONENTS(LOAD_ENTRY, photon)
-  PHOTON_EFFECT_COMPONENTS(LOAD_ENTRY, photon)
-  return photon;
+// Takes photon `i` into *photon: one at a Lambert vertex without the bodies that it is in, which are none. That is told
+// by a field, since of constant arguments PoCL's compiler makes new calls that vectorised loops may not hold.
+INLINE void stream_get(const PhotonStream *state, uint i, PhotonState *photon) {
+  photon->prefix = PREFIX_DIRECT;
+  photon->diagnostics = 0;
+  RAY_COMPONENTS(LOAD_ENTRY, photon->ray)
+  PHOTON_COMPONENTS(LOAD_ENTRY, (*photon))
+  PHOTON_PREFIX_COMPONENTS(LOAD_ENTRY, (*photon))
+  if (!photon->lambert) {
+    PHOTON_BODY_COMPONENTS(LOAD_ENTRY, (*photon))
+  }
 }
 
 INLINE void stream_put(PhotonStream *state, uint i, const PhotonState *photon) {
   RAY_COMPONENTS(STORE_ENTRY, photon->ray)
   PHOTON_COMPONENTS(STORE_ENTRY, (*photon))
-  PHOTON_EFFECT_COMPONENTS(STORE_ENTRY, (*photon))
+  PHOTON_PREFIX_COMPONENTS(STORE_ENTRY, (*photon))
+  if (!photon->lambert) {
+    PHOTON_BODY_COMPONENTS(STORE_ENTRY, (*photon))
+  }
 }
 
 INLINE Photon stream_get_record(const PhotonStream *state, uint i) {
@@ -123,6 +125,7 @@ INLINE void stream_move(PhotonStream *state, uint from, uint i) {
   RAY_COMPONENTS(MOVE_ENTRY, from)
   PHOTON_COMPONENTS(MOVE_ENTRY, from)
   PHOTON_PATH_COMPONENTS(MOVE_ENTRY, from)
-  PHOTON_EFFECT_COMPONENTS(MOVE_ENTRY, from)
+  PHOTON_PREFIX_COMPONENTS(MOVE_ENTRY, from)
+  PHOTON_BODY_COMPONENTS(MOVE_ENTRY, from)
   METROPOLIS_COMPONENTS(MOVE_ENTRY, from)
 }

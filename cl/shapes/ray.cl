@@ -53,6 +53,23 @@ INLINE void surface_unpack(const Surface *surface, SurfaceParts *parts) {
   parts->error = surface->error, parts->material = surface->material;
 }
 
+// Puts all but the material of `own` into `parts`, if it is chosen. No loop over components: PoCL's compiler would not
+// vectorise one around it.
+INLINE void surface_choose(bool chosen, const SurfaceParts *own, SurfaceParts *parts) {
+  parts->position[0] = chosen ? own->position[0] : parts->position[0];
+  parts->position[1] = chosen ? own->position[1] : parts->position[1];
+  parts->position[2] = chosen ? own->position[2] : parts->position[2];
+  parts->geometric_normal[0] = chosen ? own->geometric_normal[0] : parts->geometric_normal[0];
+  parts->geometric_normal[1] = chosen ? own->geometric_normal[1] : parts->geometric_normal[1];
+  parts->geometric_normal[2] = chosen ? own->geometric_normal[2] : parts->geometric_normal[2];
+  parts->shading_normal[0] = chosen ? own->shading_normal[0] : parts->shading_normal[0];
+  parts->shading_normal[1] = chosen ? own->shading_normal[1] : parts->shading_normal[1];
+  parts->shading_normal[2] = chosen ? own->shading_normal[2] : parts->shading_normal[2];
+  parts->uv[0] = chosen ? own->uv[0] : parts->uv[0];
+  parts->uv[1] = chosen ? own->uv[1] : parts->uv[1];
+  parts->error = chosen ? own->error : parts->error;
+}
+
 INLINE void surface_pack(const SurfaceParts *parts, Surface *surface) {
   surface->position = (real3)(parts->position[0], parts->position[1], parts->position[2]);
   surface->geometric_normal =

@@ -53,6 +53,35 @@ INLINE void shape_surface(global const Shape *shape, global const float *curves,
   surface->material = shape->material;
 }
 
+// The effects of plain shapes, whose surface is found without loops or arithmetic of whole vectors.
+enum { PLAIN_SHAPES = EFFECTS_OF_SHAPES & ~EFFECTS_NOT_BATCHED(SCALAR_EVENTS) };
+
+INLINE bool is_plain(global const Shape *shape) {
+  if ((EFFECTS & EFFECTS_OF_SHAPES & ~(uint)PLAIN_SHAPES) == 0u) return true;
+  uint type = shape->type;
+#define IS_PLAIN(x, NAME, number, name, key, effect, points) \
+  || (HAS(effect) && ((effect) & (uint)PLAIN_SHAPES) != 0u && type == SHAPE_##NAME)
+  return false SHAPE_TABLE(IS_PLAIN, );
+#undef IS_PLAIN
+}
+
+// shape_surface() of plain shapes, for loops that are to be vectorised: computes what the shape would be as each of them, and
+// chooses.
+INLINE void shape_surface_soa(global const Shape *shape, global const float *curves, Ray ray, Hit hit, SurfaceParts *parts) {
+  uint type = shape->type;
+#define CHOOSE_SURFACE(x, NAME, number, name, key, effect, points)       \
+  if (HAS((effect) & (uint)PLAIN_SHAPES)) {                               \
+    Surface surface;                                                      \
+    SurfaceParts own;                                                     \
+    name##_surface(shape, curves, ray, hit, &surface);                    \
+    surface_unpack(&surface, &own);                                       \
+    surface_choose(HAS_ALONE(effect) || type == SHAPE_##NAME, &own, parts); \
+  }
+  SHAPE_TABLE(CHOOSE_SURFACE, )
+#undef CHOOSE_SURFACE
+  parts->material = shape->material;
+}
+
 // The effects of shapes whose points their own files draw, where no table may be named: within one.
 enum { OWN_POINT_EFFECTS = EFFECTS_OF_OWN_POINTS };
 

@@ -128,6 +128,6 @@ INLINE void triangle_surface(global const TriangleBlock *blocks, global const Tr
   }
   surface->geometric_normal = geometric_normal;
   surface->shading_normal = (real3)(x, y, z);
-  surface->uv = weight_0 * convert_real2(attribute->uv[0]) + hit.u * convert_real2(attribute->uv[1]) +
-                hit.v * convert_real2(attribute->uv[2]);
+  global const float *uv = (global const float *)attribute->uv;
+  surface->uv = (real2)(weight_0 * uv[0] + hit.u * uv[2] + hit.v * uv[4], weight_0 * uv[1] + hit.u * uv[3] + hit.v * uv[5]);
 }

@@ -13,13 +13,15 @@
 // Batched steps that cannot hold an effect, because it needs loops or arithmetic of whole vectors on the way. With such
 // an effect the step runs photon by photon, or path by path: then branches save work that a batch would do for nothing.
 #define BATCHED 0u
-#define SCALAR_EMISSION 1u          // photons leave their emitter
-#define SCALAR_EVENTS 2u            // photons meet a surface
-#define SCALAR_DIFFUSE_VERTICES 4u  // camera paths come to a diffuse surface
-#define SCALAR_HITS 8u              // rays meet every primitive of a small scene: brute_force.cl
-#define SCALAR_PATHS (SCALAR_EVENTS | SCALAR_DIFFUSE_VERTICES)
-#define SCALAR_LIGHTS (SCALAR_EMISSION | SCALAR_DIFFUSE_VERTICES)
-#define SCALAR_ALL (SCALAR_PATHS | SCALAR_EMISSION)
+#define SCALAR_EMISSION 1u       // photons leave their emitter
+#define SCALAR_EVENTS 2u         // photons meet any surface; those at Lambert surfaces of plain shapes are a batch even so
+#define SCALAR_LIGHT_SAMPLES 4u  // camera paths draw a point of an emitter
+#define SCALAR_HITS 8u           // rays meet every primitive of a small scene: brute_force.cl
+#define SCALAR_LAMBERT 16u       // paths come to a Lambert surface of a plain shape: lambert_vertex.cl
+#define SCALAR_LIGHTS (SCALAR_EMISSION | SCALAR_LIGHT_SAMPLES)
+#define SCALAR_BODIES (SCALAR_EMISSION | SCALAR_EVENTS)
+#define SCALAR_PATHS (SCALAR_EVENTS | SCALAR_LAMBERT)
+#define SCALAR_SHAPE (SCALAR_LIGHTS | SCALAR_EVENTS | SCALAR_HITS)
 
 // Where the primitives are that an effect stands for.
 #define NO_GEOMETRY 0u
@@ -35,22 +37,22 @@
 #define EFFECT_TABLE(ROW, x) \
   ROW(x, TRIANGLES,      0,  "triangles",      IN_PATHS,              BATCHED,                  TRIANGLE_LEAVES, "triangles") \
   SHAPE_EFFECTS(ROW, x) \
-  ROW(x, TEXTURES,       5,  "textures",       IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "textures") \
+  ROW(x, TEXTURES,       5,  "textures",       IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "textures") \
   ROW(x, LENS,           8,  "lens",           IN_CAMERA | IN_PATH,   BATCHED,                  NO_GEOMETRY,     "depth of field") \
   ROW(x, SHADOW_RAYS,    9,  "shadow_rays",    IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "direct light by shadow rays") \
-  ROW(x, ROUGH,          10, "rough",          IN_PATHS,              SCALAR_PATHS,             NO_GEOMETRY,     "rough lobes") \
+  ROW(x, ROUGH,          10, "rough",          IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "rough lobes") \
   LIGHT_EFFECTS(ROW, x) \
-  ROW(x, ABSORPTION,     15, "absorption",     IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "absorption in glass") \
+  ROW(x, ABSORPTION,     15, "absorption",     IN_PATHS,              SCALAR_BODIES,            NO_GEOMETRY,     "absorption in glass") \
   ROW(x, DISPERSION,     16, "dispersion",     IN_PATHS,              SCALAR_EVENTS,            NO_GEOMETRY,     "dispersion") \
   ROW(x, MOTION,         17, "motion",         0u,                    BATCHED,                  NO_GEOMETRY,     "motion blur") \
-  ROW(x, MEDIUM,         18, "medium",         IN_PATHS | IN_GATHER,  SCALAR_ALL,               NO_GEOMETRY,     "medium") \
+  ROW(x, MEDIUM,         18, "medium",         IN_PATHS | IN_GATHER,  SCALAR_PATHS | SCALAR_EMISSION, NO_GEOMETRY,     "medium") \
   ROW(x, GUIDED_PHOTONS, 19, "guided_photons", IN_PHOTON,             BATCHED,                  NO_GEOMETRY,     "photons guided to what the camera sees") \
   ROW(x, AIMED_PHOTONS,  20, "aimed_photons",  IN_PHOTON,             BATCHED,                  NO_GEOMETRY,     "photons aimed at what focuses them") \
   ROW(x, SMOOTH,         21, "smooth",         IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "shading normals") \
   ROW(x, SLIVERS,        22, "needles",        IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "thin triangles") \
-  ROW(x, NESTED,         23, "nested",         IN_PATHS,              SCALAR_ALL,               NO_GEOMETRY,     "dielectrics that touch or hold something") \
+  ROW(x, NESTED,         23, "nested",         IN_PATHS,              SCALAR_BODIES,            NO_GEOMETRY,     "dielectrics that touch or hold something") \
   ROW(x, WALLS,          24, "walls",          IN_CAMERA | IN_GATHER, BATCHED,                  NO_GEOMETRY,     "walls between photons and visible points") \
-  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, BATCHED,                  NO_GEOMETRY,     "light from beyond the scene on infinite planes") \
+  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, SCALAR_PATHS,             NO_GEOMETRY,     "light from beyond the scene on infinite planes") \
   MATERIAL_EFFECTS(ROW, x)
 
 #ifdef __cplusplus

@@ -53,7 +53,7 @@
   ROW(x, MIRROR,    6,  "mirror",    IN_PATHS, BATCHED,       NO_GEOMETRY, "mirrors") \
   ROW(x, GLASS,     7,  "glass",     IN_PATHS, BATCHED,       NO_GEOMETRY, "glass") \
   ROW(x, CONDUCTOR, 11, "conductor", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "conductors") \
-  ROW(x, PLASTIC,   12, "plastic",   IN_PATHS, SCALAR_PATHS,  NO_GEOMETRY, "plastic") \
+  ROW(x, PLASTIC,   12, "plastic",   IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "plastic") \
   ROW(x, THIN_GLASS, 26, "thin_glass", IN_PATHS, SCALAR_EVENTS, NO_GEOMETRY, "thin glass") \
   ROW(x, OREN_NAYAR, 29, "oren_nayar", IN_PATHS | IN_GATHER, SCALAR_PATHS, NO_GEOMETRY, "rough diffuse surfaces")
 

@@ -20,10 +20,10 @@
 // Their rows of EFFECT_TABLE: see effects.h for the columns.
 #define SHAPE_EFFECTS(ROW, x) \
   ROW(x, SPHERES, 1, "spheres", IN_PATHS, BATCHED,                  SHAPE_LEAVES, "spheres") \
-  ROW(x, PLANES,  2, "planes",  IN_PATHS, SCALAR_PATHS,             UNBOUNDED,    "infinite planes") \
-  ROW(x, DISKS,   3, "disks",   IN_PATHS, SCALAR_PATHS,             SHAPE_LEAVES, "disks") \
-  ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "revolved curves") \
-  ROW(x, CYLINDERS, 27, "cylinders", IN_PATHS, SCALAR_ALL | SCALAR_HITS, SHAPE_LEAVES, "cylinders")
+  ROW(x, PLANES,  2, "planes",  IN_PATHS, BATCHED,                  UNBOUNDED,    "infinite planes") \
+  ROW(x, DISKS,   3, "disks",   IN_PATHS, BATCHED,                  SHAPE_LEAVES, "disks") \
+  ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_SHAPE,             SHAPE_LEAVES, "revolved curves") \
+  ROW(x, CYLINDERS, 27, "cylinders", IN_PATHS, SCALAR_SHAPE,             SHAPE_LEAVES, "cylinders")
 
 // Shapes that become triangles on upload: enumerator and name; type in scene files.
 #define TRIANGLE_SHAPE_TABLE(ROW, x) \

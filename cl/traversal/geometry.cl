@@ -1,6 +1,7 @@
 // All that a ray can meet: infinite planes, one after the other, and everything bounded, in the tree.
 #include "shapes/shape.cl"
 #include "traversal/kdtree.cl"
+#include "traversal/planes.cl"
 
 typedef struct {
   global const KdNode *nodes;
@@ -19,29 +20,23 @@ typedef struct {
 #define GEOMETRY_INIT(plane_count) \
   const Geometry geometry = {nodes, blocks, attributes, shapes, curves, plane_count};
 
-// geometry_closest() of the infinite planes alone, which are in no tree.
-INLINE bool planes_closest(const Geometry *g, Ray ray, Hit *hit) {
-  bool found = false;
-  if (HAS(EFFECT_PLANES))
-    for (uint i = 0; i < g->plane_count; ++i) found |= shape_closest(g->shapes + i, i, g->curves, ray, hit);
-  return found;
-}
-
 // Takes the nearest hit with 0 < t < hit->t into `hit`. False, and `hit` as it was, if there is none.
 INLINE bool geometry_closest(const Geometry *g, Ray ray, Hit *hit) {
-  bool found = planes_closest(g, ray, hit);
+  bool found = planes_closest(g->shapes, g->plane_count, ray, hit);
   if (HAS(EFFECTS_IN_LEAVES))
     found |= kdtree_closest(g->nodes, g->blocks, g->shapes, g->curves, ray, hit);
   return found;
 }
 
-// Whether anything is met for 0 < t < t_max. Adds to *diagnostics.
-INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *diagnostics) {
-  if (HAS(EFFECT_PLANES))
-    for (uint i = 0; i < g->plane_count; ++i)
-      if (shape_occluded(g->shapes + i, g->curves, ray, t_max, diagnostics)) return true;
+// geometry_occluded() but for the planes.
+INLINE bool bounded_occluded(const Geometry *g, Ray ray, real t_max, uint *diagnostics) {
   return HAS(EFFECTS_IN_LEAVES) &&
          kdtree_occluded(g->nodes, g->blocks, g->shapes, g->curves, ray, t_max, diagnostics);
+}
+
+// Whether anything is met for 0 < t < t_max. Adds to *diagnostics.
+INLINE bool geometry_occluded(const Geometry *g, Ray ray, real t_max, uint *diagnostics) {
+  return planes_occluded(g->shapes, g->plane_count, ray, t_max) || bounded_occluded(g, ray, t_max, diagnostics);
 }
 
 // The surface at a hit that geometry_closest() has found along `ray`.
@@ -52,17 +47,15 @@ INLINE void geometry_surface(const Geometry *g, Ray ray, Hit hit, Surface *surfa
     shape_surface(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, surface);
 }
 
-// The same for loops over paths that are to be vectorised: what the branches hand on are scalars.
+// The same for loops over paths that are to be vectorised: what the branches hand on are scalars. Shapes are plain.
 INLINE void geometry_surface_soa(const Geometry *g, Ray ray, Hit hit, Surface *surface) {
-  SurfaceParts parts;
+  SurfaceParts parts = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0}, 0, 0};
   if (HAS(EFFECT_TRIANGLES) && !(hit.primitive & HIT_SHAPE)) {
     Surface triangle;
     triangle_surface(g->blocks, g->attributes, hit, &triangle);
     surface_unpack(&triangle, &parts);
   } else {
-    Surface shape;
-    shape_surface(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, &shape);
-    surface_unpack(&shape, &parts);
+    shape_surface_soa(g->shapes + (hit.primitive & ~HIT_SHAPE), g->curves, ray, hit, &parts);
   }
   surface_pack(&parts, surface);
 }

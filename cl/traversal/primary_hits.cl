@@ -66,10 +66,8 @@ OUTLINE void primary_hits_of(const Geometry *geometry, const Params *params, uin
   }
   first_rays(params, xs, ys, numbers, &rays);
   if (HAS(EFFECT_PLANES)) {
-    for (uint i = 0; i < PACKET_RAYS; ++i) {
-      Hit hit = hit_none(INFINITY);
-      if (planes_closest(geometry, packet_ray(&rays, i), &hit)) packet_set(&rays, i, packet_ray(&rays, i), hit);
-    }
+    RayArrays arrays = RAY_ARRAYS(&rays);
+    planes_closest_all(geometry->shapes, geometry->plane_count, PACKET_RAYS, &arrays);
   }
   kdtree_closest_packet(geometry->nodes, geometry->blocks, geometry->shapes, geometry->curves, &rays, used);
   for (; used != 0; used &= used - 1u) {

@@ -9,7 +9,13 @@ const char* const source = R"(
 kernel void lookup(global const Texture *textures, global const half *texels, global const float2 *uv,
                    global float4 *out, uint count, uint which) {
   uint i = get_global_id(0);
-  if (i < count) out[i] = texture_lookup(textures + which, texels, uv[i]);
+  if (i >= count) return;
+  Texel texel = texture_lookup(textures + which, texels, uv[i]);
+  out[i] = (real4)(texel.r, texel.g, texel.b, texel.a);
+}
+kernel void halves(global float *out) {
+  uint i = get_global_id(0);
+  if (i < 65536) out[i] = half_value(i | 0x5aa50000u);  // of the low bits alone
 }
 kernel void resolve(global const Material *materials, global const Texture *textures, global const half *texels,
                     global const float2 *uv, global float4 *out, uint count, uint which) {
@@ -77,6 +83,25 @@ std::vector<float2> coordinates(RandomInputs& random, uint width, uint height) {
 }
 
 }  // namespace
+
+TEST_CASE("half_value is exact for every half") {
+  auto& device = test_device();
+  const auto out = device.buffer(65536 * sizeof(float), "values");
+  cl::Program program = build_test_program(source, EFFECT_TEXTURES);
+  run_kernel(program, "halves", 65536, out);
+  const auto values = device.download<float>(out, 65536);
+  std::size_t wrong = 0;
+  for (unsigned bits = 0; bits < 65536; ++bits) {
+    const int exponent = static_cast<int>(bits >> 10 & 31);
+    const double mantissa = bits & 0x3ff, sign = bits >> 15 ? -1 : 1;
+    double expected = exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+    if (exponent == 31) expected = mantissa > 0 ? NAN : INFINITY;
+    const double value = values[bits];
+    wrong += std::isnan(expected) ? !std::isnan(value)
+                                  : value != sign * expected || std::signbit(value) != (sign < 0);
+  }
+  CHECK(wrong == 0);
+}
 
 TEST_CASE("texture_lookup repeats images, nearest or bilinear, at any coordinate") {
   RandomInputs random(21);

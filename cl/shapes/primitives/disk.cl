@@ -15,5 +15,6 @@ INLINE real disk_intersect(global const Shape *shape, global const float *curves
 // uv: local x and y, [-1, 1] mapped to [0, 1].
 INLINE void disk_surface(global const Shape *shape, global const float *curves, Ray ray, Hit hit, Surface *surface) {
   plane_position(shape, ray, hit, surface);
-  surface->uv = transform_vector(shape->to_local, surface->position - plane_centre(shape)).xy * (real)0.5 + (real)0.5;
+  real3 p = transform_vector(shape->to_local, sub3(surface->position, plane_centre(shape)));
+  surface->uv = (real2)(p.x * (real)0.5 + (real)0.5, p.y * (real)0.5 + (real)0.5);
 }

@@ -41,6 +41,6 @@ INLINE void sphere_surface(global const Shape *shape, global const float *curves
   // must be right for a ray that is spawned here.
   surface->error = GAMMA(1) * max_component(abs3(surface->position)) + GAMMA(12) * radius;
   surface->geometric_normal = surface->shading_normal = n;
-  real3 q = normalize(transform_vector(shape->to_local, n));
-  surface->uv = q.xy * (real)0.5 + (real)0.5;
+  real3 q = unit3_of_any(transform_vector(shape->to_local, n));
+  surface->uv = (real2)(q.x * (real)0.5 + (real)0.5, q.y * (real)0.5 + (real)0.5);
 }
