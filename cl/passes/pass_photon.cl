@@ -129,7 +129,7 @@ OUTLINE uint stream_scatter_lambert(const Scene *from, const Params *settings, u
   const Params params = *settings;
   uint lambert[STREAM_CAPACITY], lambert_count = 0, other_count = 0;
   for (uint i = 0; i < count; ++i) {
-    uint is_lambert = stream_outside(&scene, batch, i) && meets_lambert(&scene, stream_hit(batch, i));
+    uint is_lambert = stream_outside(&scene, batch, i) && meets_lambert(&scene, stream_ray(batch, i), stream_hit(batch, i));
     lambert[lambert_count] = i, lambert_count += is_lambert;
     others[other_count] = i, other_count += is_lambert ^ 1u;
   }

@@ -145,7 +145,7 @@ INLINE uint photon_interact(const Scene *scene, const Params *params, RandomStre
   bool layered = !lambert && is_layered(bsdf.kind), diffuse = is_diffuse(bsdf.kind);
   bool black = is_black(&bsdf, material);
   // With shadow rays the light that arrives straight from an emitter is counted there; so is that of sun and sky where far.
-  bool counted = shadow_rays && bounce == 0, far = is_far(&scene->geometry, hit, surface.position);
+  bool counted = shadow_rays && bounce == 0, far = !lambert && is_far(&scene->geometry, hit, surface.position);
   if (far && bounce == 0) counted = counted || (photon->mark & FROM_BEYOND) != 0;
   if (HAS(EFFECT_HORIZON)) photon->mark &= ~FROM_BEYOND;
   bool deposits_here = keeps_photons(&bsdf, material);

@@ -57,6 +57,11 @@ INLINE void visible_emission(const Scene *scene, CameraPath *path, const Visible
   if (!path->counted && !visible->beyond) radiance_add(&path->radiance, path->prefix, path->throughput * emission);
 }
 
+// Whether several infinite planes send each other light to the horizon, so that paths go on from diffuse surfaces.
+INLINE bool beside_horizon(const Scene *scene, const Params *params) {
+  return params->plane_count > 1 && has_horizon(&scene->geometry);
+}
+
 // Whether the emission at a hit counts less than in full, since light sampling finds it too.
 INLINE bool weighs_emission(const Scene *scene, real bsdf_pdf, Hit hit) {
   if (!HAS(EFFECT_ROUGH) || !(bsdf_pdf > 0)) return false;
@@ -76,7 +81,7 @@ INLINE bool visible_at_surface(const Scene *scene, CameraPath *path, const Bound
   if (!(max_component(weight) > 0)) return false;
   bool far = is_far(&scene->geometry, hit, surface->position);
   bool counts = !visible->beyond || (far && passes_sphere(&scene->geometry, surface->position, -wi));
-  bool several = params->plane_count > 1 && has_horizon(&scene->geometry);
+  bool several = beside_horizon(scene, params);
   bool goes_on = several && (!counts || random_at(path->stream, path->bounce, DIM_CHANNEL).y < (real)0.5f);
   real3 side = dot3(surface->geometric_normal, wi) < 0 ? surface->geometric_normal : -surface->geometric_normal;
   visible->point.normal = normal_pack(side) | diffuse_vertex_mark(path->prefix);
@@ -155,7 +160,8 @@ INLINE uint visible_path_step(const Scene *scene, CameraPath *path, Boundary *bo
     if (!visible->beyond) camera_path_escape(scene, path);
     return VISIBLE_ENDS;
   }
-  if (DIFFUSE_VERTICES_BATCHED && is_outside(scene, path->interior, &boundary->media) && meets_lambert(scene, hit) &&
+  if (DIFFUSE_VERTICES_BATCHED && !beside_horizon(scene, params) &&
+      is_outside(scene, path->interior, &boundary->media) && meets_lambert(scene, path->ray, hit) &&
       !weighs_emission(scene, path->bsdf_pdf, hit))
     return VISIBLE_LAMBERT;
   Surface surface;

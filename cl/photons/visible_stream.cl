@@ -81,14 +81,14 @@ OUTLINE void visible_stream_add(VisibleStream *stream, uint index) {
 OUTLINE uint visible_stream_fill(VisibleStream *stream, uint next, uint end) {
   const Scene *scene = stream->scene;
   const Params *params = stream->params;
-  bool from_outside = !(nested(scene) && (scene->nested & NESTED_CAMERA));
+  bool from_outside = !(nested(scene) && (scene->nested & NESTED_CAMERA)) && !beside_horizon(scene, params);
   for (; next < end && stream->alive < STREAM_CAPACITY && stream->vertex_count < STREAM_CAPACITY; ++next) {
     bool is_lambert = false;
     if (PRIMARY_HITS_FOUND && from_outside) {
       // Most paths end at what they meet first.
       global const PrimaryHit *found = (global const PrimaryHit *)stream->points + next;
       Hit hit = hit_none(INFINITY);
-      is_lambert = primary_hit(found, &hit) && meets_lambert(scene, hit);
+      is_lambert = primary_hit(found, &hit) && meets_lambert(scene, first_ray(found), hit);
       PathSampler sampler = chunk_sampler(params, params->visible_points, next);
       DiffuseArrival arrival = {first_ray(found), hit, (real3)(1, 1, 1), (real3)(0, 0, 0), false, 0, sampler.pixel,
                                 next % params->visible_points};

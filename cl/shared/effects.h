@@ -52,7 +52,7 @@
   ROW(x, SLIVERS,        22, "needles",        IN_PATHS,              BATCHED,                  NO_GEOMETRY,     "thin triangles") \
   ROW(x, NESTED,         23, "nested",         IN_PATHS,              SCALAR_BODIES,            NO_GEOMETRY,     "dielectrics that touch or hold something") \
   ROW(x, WALLS,          24, "walls",          IN_CAMERA | IN_GATHER, BATCHED,                  NO_GEOMETRY,     "walls between photons and visible points") \
-  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, SCALAR_PATHS,             NO_GEOMETRY,     "light from beyond the scene on infinite planes") \
+  ROW(x, HORIZON,        25, "horizon",        IN_CAMERA | IN_PHOTON, SCALAR_EVENTS,            NO_GEOMETRY,     "light from beyond the scene on infinite planes") \
   MATERIAL_EFFECTS(ROW, x)
 
 #ifdef __cplusplus
