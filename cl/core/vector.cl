@@ -2,6 +2,10 @@
 // vector code (PoCL's) take scalars alone: a loop that holds an operation on a real3, or merges two of them where
 // branches meet, stays scalar. What a loop over photons, camera rays or ends of camera paths calls is therefore written
 // with these; a real3 that is only made and taken apart costs nothing. Sums go from left to right, as those of dot3().
+//
+// Nor may what such a loop calls have an argument that nothing reads in some program, or that is the same constant in all
+// calls: the compiler then makes a new call without the marks that say that the loop's steps are independent. And no branch
+// may lead to a load that others do without: what either side is, is computed and chosen.
 #include "shared/effects.h"
 #include "core/prelude.cl"
 

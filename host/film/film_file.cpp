@@ -173,6 +173,7 @@ void read_blocks(const Json& list, Reader& reader, FilmState& film) {
       film.state[name] = records_of<std::byte>(bytes, bytes.size());
   }
   if (film.pixels.empty() || !reader.at_end()) throw std::length_error("blocks");
+  if (!sums_fit(film)) throw std::out_of_range("sums");
 }
 
 /// The version that the first line of `bytes` says, which is taken off; none where that is no film's.

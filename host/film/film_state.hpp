@@ -56,6 +56,9 @@ struct FilmState {
   std::map<std::string, std::uint64_t> diagnostics;  // by their keys
 };
 
+/// Whether the sums are what so many passes can add up: else they may be beyond what sums of films hold.
+bool sums_fit(const FilmState& film);
+
 /// What differs between two identities, as in "seed: 1 in a.film, 2 here"; empty where nothing does.
 std::string difference_of(const RenderIdentity& theirs, const std::string& name, const RenderIdentity& ours,
                           const std::string& our_name);

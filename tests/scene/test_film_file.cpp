@@ -101,6 +101,30 @@ TEST_CASE("a film that is cut off, damaged or of a newer version is refused with
   CHECK_FALSE(is_film(folder.path("none.film")));
 }
 
+TEST_CASE("a film whose sums its passes cannot have added up is refused, however it is checksummed") {
+  TemporaryFolder folder;
+  const std::string file = folder.path("a.film");
+  constexpr std::int64_t most = std::int64_t{4} << (EXACT_SUM_BITS - 1);  // by the four passes of the film
+  const auto refused = [&](auto&& change) {
+    FilmState film = some_film();
+    change(film);
+    write_film(file, film);
+    try {
+      read_film(file);
+      return false;
+    } catch (const UserError&) {
+      return true;
+    }
+  };
+  CHECK_FALSE(refused([&](FilmState& film) { film.pixels[7].radiance[1] = exact_sum_bins(most, -most, 5); }));
+  CHECK(refused([&](FilmState& film) { film.pixels[7].radiance[1] = exact_sum_bins(most + 1, 0, 5); }));
+  CHECK(refused([&](FilmState& film) { film.pixels[7].luminance[1] = exact_sum_bins(0, -most - 1, 5); }));
+  CHECK(refused([&](FilmState& film) { film.pixels[8].luminance2 = exact_sum_bins(-most - 1, 0, 5); }));
+  CHECK(refused([&](FilmState& film) { film.pixels[9].kernel_bias[0].high = INT64_MAX; }));
+  CHECK(refused([&](FilmState& film) { film.layers[155].radiance[2][2].low_and_bin = INT64_MIN; }));
+  CHECK(refused([&](FilmState& film) { film.pixels[3].left_out[1] = 5; }));
+}
+
 TEST_CASE("sets of passes know their ranges and halves") {
   RandomInputs random(313);
   for (int n = 0; n < 200; ++n) {
