@@ -4,12 +4,13 @@
 #include "lights/horizon.cl"
 #include "scene/path_media.cl"
 
-// Whether what a ray meets at `hit` is surely not far (horizon.cl): the place by the ray alone is wrong by less.
+// Whether what a ray meets at `hit` is surely not far (horizon.cl): unless it comes from very far, the place by the ray alone
+// is wrong by less.
 INLINE bool is_near(const Geometry *g, Ray ray, Hit hit) {
   if (!has_horizon(g) || !(hit.primitive & HIT_SHAPE)) return true;
   real3 from_centre = sub3(ray_at(ray.origin, hit.t, ray.direction), convert_real3(g->shapes[0].sphere.xyz));
   real radius = (real)0.99f * g->shapes[0].sphere.w;
-  return dot3(from_centre, from_centre) < radius * radius;
+  return hit.t < 10000 * radius && dot3(from_centre, from_centre) < radius * radius;
 }
 
 // Whether the surface that `ray` meets at `hit` is one.

@@ -136,7 +136,7 @@ INLINE void diffuse_vertex_point(const Scene *scene, const Params *params, Diffu
   if (HAS(EFFECT_TEXTURES)) {
     bsdf_texture_soa(material, scene->textures, scene->texels, surface.uv, &bsdf);
     bool finite = isfinite(bsdf.color.x + bsdf.color.y + bsdf.color.z);
-    r->non_finite[i] = finite ? 0u : 1u;
+    r->non_finite[i] = finite || r->bounce[i] == params->max_depth ? 0u : 1u;
     bsdf.color = choose3(finite, bsdf.color, (real3)(0, 0, 0));
   }
   real3 weight = scaled3(INV_PI, mul3(throughput, bsdf.color));

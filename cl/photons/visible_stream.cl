@@ -107,20 +107,29 @@ OUTLINE void visible_stream_finish_vertices(VisibleStream *stream) {
   stream->vertex_count = 0;
 }
 
+// Whether what the path meets next is known, without a ray: see media_closest().
+INLINE bool visible_in_gap(const Scene *scene, const VisibleState *state) {
+  return nested(scene) && state->boundary.media.contact != CONTACT_NONE;
+}
+
 // Takes every path to its next hit and past that.
 OUTLINE void visible_stream_trace(VisibleStream *stream) {
-  for (uint k = 0; k < stream->alive; ++k)
-    visible_stream_put_ray(stream, k, stream->states[stream->slots[k]].path.ray);
+  uint ray_of[STREAM_CAPACITY], ray_count = 0;
+  for (uint k = 0; k < stream->alive; ++k) {
+    VisibleState *state = stream->states + stream->slots[k];
+    ray_of[k] = ray_count;
+    if (!visible_in_gap(stream->scene, state)) visible_stream_put_ray(stream, ray_count++, state->path.ray);
+  }
   RayArrays rays = RAY_ARRAYS(stream);
-  rays_closest(&stream->scene->geometry, &rays, stream->alive, stream->counters);
+  rays_closest(&stream->scene->geometry, &rays, ray_count, stream->counters);
   // From the last on, so that a path which ends gives its place to one that has taken its step.
   for (uint k = stream->alive; k-- > 0;) {
     VisibleState *state = stream->states + stream->slots[k];
-    Hit hit = visible_stream_hit(stream, k);
-    if (nested(stream->scene) && state->boundary.media.contact != CONTACT_NONE) {
-      hit = hit_none(INFINITY);
+    Hit hit = hit_none(INFINITY);
+    if (visible_in_gap(stream->scene, state))
       media_closest(stream->scene, &state->boundary.media, state->path.ray, &hit);
-    }
+    else
+      hit = visible_stream_hit(stream, ray_of[k]);
     ++state->path.rays;
     if (visible_stream_step(stream, state, hit)) continue;
     uint slot = stream->slots[k], last = --stream->alive;

@@ -55,6 +55,8 @@ void upload_textures(const Scene& scene, Device& device, DeviceScene& out) {
     }
     textures.push_back(texture);
   }
+  // Programs that are compiled for textures look one up at every surface, and choose then.
+  if (textures.empty()) textures.emplace_back();
   out.textures = device.upload(textures, "textures");
   out.texels = device.upload(texels, "texels");
 }

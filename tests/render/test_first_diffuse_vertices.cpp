@@ -39,14 +39,16 @@ Scene lamps_and_glass(int width, int height) {
   return scene;
 }
 
-/// The effects that the scene calls for and one with which not even Lambert vertices are a batch; where there
-/// is no medium it changes nothing else.
-std::string with_medium(const Scene& scene) {
+std::string called_effects(const Scene& scene) {
   std::string keys;
   for (const auto& effect : find_effects(scene))
     if (!effect.reason.empty()) keys += effect.key + ",";
-  return keys + "medium";
+  return keys;
 }
+
+/// The effects that the scene calls for and one with which not even Lambert vertices are a batch; where there
+/// is no medium it changes nothing else.
+std::string with_medium(const Scene& scene) { return called_effects(scene) + "medium"; }
 
 void check_same(Scene scene, PhotonRays rays = PhotonRays::automatic,
                 CameraRays camera_rays = CameraRays::automatic) {
@@ -89,6 +91,21 @@ TEST_CASE("camera paths that end side by side give the picture of those that end
   check_same(scene);
   scene.renderer.boundary_correction = false;
   check_same(scene);
+}
+
+TEST_CASE("batches that are compiled for textures need none") {
+  if (!test_device().has_serial_work_items()) {
+    WARN("skipped: on this device there are no batches, and programs differ by roundings");
+    return;
+  }
+  Scene scene = lamps_and_glass(19, 23);
+  scene.renderer.integrator = Integrator::sppm;
+  scene.renderer.passes = 2;
+  scene.renderer.photons = 5000;
+  RenderOptions options;
+  const auto without = render_scene(scene, test_device(), options);
+  options.effects = called_effects(scene) + "textures";
+  check_same_render(render_scene(scene, test_device(), options), without);
 }
 
 TEST_CASE("camera paths that end side by side give the picture of those that end alone: many primitives") {
