@@ -11,6 +11,7 @@
 #include "app/render_setup.hpp"
 #include "app/report.hpp"
 #include "base/console.hpp"
+#include "base/distinct_files.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "base/output_file.hpp"
@@ -60,13 +61,18 @@ class LastSteps {
   } catch (const UserError& error) {
     failed(error.what());
   }
-  void failed(const std::string& fault) { code_ = fail(fault, fault_of_input); }
+  /// A fault that two steps meet is told once.
+  void failed(const std::string& fault) {
+    if (fault != last_fault_) code_ = fail(fault, fault_of_input);
+    last_fault_ = fault;
+  }
 
   /// `code` where all went well.
   int exit_code(int code = done) const { return code_ == done ? code : code_; }
 
  private:
   int code_ = done;
+  std::string last_fault_;
 };
 
 void write_json(const std::string& file, const std::string& text) {
@@ -117,9 +123,29 @@ int render(const Options& options) {
   return last.exit_code(result.statistics.stop == StopReason::interrupted ? interrupted : done);
 }
 
+/// Writes the picture of all parts.
+void merge_picture(const Options& options, const FilmMerger& merger, ProgressReport& progress,
+                   LastSteps& last) {
+  KernelCache kernels(options.keep_kernels);
+  Device device(find_device(options.device), options.render.threads, &kernels);
+  const RenderResult result = picture_of(merger, device, options.render.confidence);
+  report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
+  const auto unwritten = write_pictures(options.render.outputs, result.picture,
+                                        metadata_of(merger.summary(), result.statistics), Unwritable::kept);
+  progress.finish(written(options.render.outputs, unwritten), result.statistics);
+  for (const auto& [file, fault] : unwritten) last.failed(fault);
+}
+
 int merge(const Options& options) {
   for (const auto& file : options.render.outputs) check_output(file);
-  if (!options.film.empty()) check_film_place(options.film, options.render.outputs);
+  if (!options.film.empty()) check_film_place(options.film);
+  std::vector<NamedFile> files{{"the film of the whole", options.film}};
+  for (const auto& file : options.render.outputs) files.push_back({"a picture", file});
+  check_distinct(files);
+  // The film of the whole may take the place of one of the parts: it is written last.
+  files.erase(files.begin());
+  for (const auto& file : options.films) files.push_back({"a part", file});
+  check_distinct(files);
   FilmMerger merger;
   for (const auto& file : options.films) merger.add(file);
   const FilmState film = merger.summary();
@@ -127,16 +153,8 @@ int merge(const Options& options) {
   if (film.devices.size() > 1)
     progress.note("the parts are of " + listed(film.devices) + ": the bits are those of no single device");
   LastSteps last;
+  if (!options.render.outputs.empty()) last.take([&] { merge_picture(options, merger, progress, last); });
   if (!options.film.empty()) last.take([&] { write_film(options.film, merger.whole()); });
-  if (options.render.outputs.empty()) return last.exit_code();
-  KernelCache kernels(options.keep_kernels);
-  Device device(find_device(options.device), options.render.threads, &kernels);
-  const RenderResult result = picture_of(merger, device, options.render.confidence);
-  report_notices(kernels, [&](const std::string& notice) { progress.note(notice); });
-  const auto unwritten = write_pictures(options.render.outputs, result.picture,
-                                        metadata_of(film, result.statistics), Unwritable::kept);
-  progress.finish(written(options.render.outputs, unwritten), result.statistics);
-  for (const auto& [file, fault] : unwritten) last.failed(fault);
   return last.exit_code();
 }
 

@@ -155,12 +155,13 @@ kernel void film_statistics(global const FilmPixel *film, global PixelStatistics
   if (film[i].missed < 0 && (i == 0 || !(film[i - 1].missed < 0))) atomic_or(found, 1u);
 }
 
-// errors[i] = error of pixel i * stride, for i < count. With *found = 0 photons are stored of which no pixel has found any:
-// then the error of all is unknown.
+// errors[i] = error of pixel i * stride of a part of `size` pixels: its first column and row, its width and height; for
+// i < count. With *found = 0 photons are stored of which no pixel has found any: then the error of all is unknown.
 kernel void pixel_errors(global const PixelStatistics *pixels, global PixelError *errors, global const uint *found,
-                         uint width, uint height, uint stride, uint count, uint low_discrepancy) {
+                         uint2 size, uint4 part, uint stride, uint count, uint low_discrepancy) {
   uint i = get_global_id(0);
   if (i >= count) return;
-  errors[i] = pixel_error(pixels, width, height, i * stride, low_discrepancy != 0);
+  uint x = part.x + i * stride % part.z, y = part.y + i * stride / part.z;
+  errors[i] = pixel_error(pixels, size.x, size.y, y * size.x + x, low_discrepancy != 0);
   if (*found == 0) errors[i].bias = INFINITY;
 }

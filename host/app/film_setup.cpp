@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/distinct_files.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/spelling.hpp"
@@ -64,11 +65,8 @@ RenderIdentity identity_of(const Options& options, const Scene& scene) {
           {"kernels", kernels_hash(options.render.kernel_dir)}};
 }
 
-void check_film_place(const std::string& file, const std::vector<std::string>& outputs, bool is_read) {
+void check_film_place(const std::string& file, bool is_read) {
   check_writable(file);
-  for (const auto& output : outputs)
-    if (std::filesystem::path(output).lexically_normal() == std::filesystem::path(file).lexically_normal())
-      throw UserError(file + ": cannot be both the film and a picture; expected two names");
   std::error_code unreadable;
   if (!is_read && std::filesystem::is_regular_file(file, unreadable) &&
       std::filesystem::file_size(file, unreadable) > 0 && !is_film(file))
@@ -87,10 +85,14 @@ void set_film(const Options& options, const Scene& scene, RenderOptions& render)
     film.every = options.checkpoint_interval.value_or(usual_interval);
   if (film.range && film.file.empty())
     throw UserError("--pass-range: a part is kept as a film; expected --film FILE with it");
+  std::vector<NamedFile> files{{"the film", film.file}, {"the statistics", options.stats_json}};
+  if (film.resume != film.file) files.push_back({"the film to go on from", film.resume});
+  for (const auto& file : render.outputs) files.push_back({"a picture", file});
+  check_distinct(files);
   if (film.file.empty() && !goes_on) return;
   film.identity = identity_of(options, scene);
   if (film.file.empty()) return;
-  check_film_place(film.file, render.outputs, film.file == film.resume);
+  check_film_place(film.file, film.file == film.resume);
   if (!options.checkpoint.empty() && film.file != film.resume && is_film(film.file))
     throw UserError(film.file + ": holds a film already; go on from it with --resume " + film.file +
                     ", or remove it to begin anew");

@@ -112,10 +112,13 @@ inline CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& tar
   return app.add_flag(name, target, help)->disable_flag_override();
 }
 
-/// Declares an option of any text, such as a file.
+/// Declares an option of any text but none, such as a file: an unset variable of a shell is no choice.
 inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
                              const std::string& type, const std::string& help) {
-  return app.add_option(name, target, help)->type_name(type);
+  const auto not_empty = [type](const std::string& text) {
+    return text.empty() ? "expected " + (type.empty() ? "a file" : type) + ", found nothing" : std::string();
+  };
+  return app.add_option(name, target, help)->check(CLI::Validator(not_empty, ""))->type_name(type);
 }
 
 template <typename Value>

@@ -26,6 +26,12 @@ double mean_of(const ExactSum& sum, std::uint64_t count) {
   return static_cast<double>(std::ldexp(units / static_cast<long double>(count), exponent));
 }
 
+std::size_t look_stride(const PixelRect& crop, std::size_t most) {
+  std::size_t stride = (crop.pixels() + most - 1) / most;
+  while (stride > 1 && std::gcd(stride, static_cast<std::size_t>(crop.width())) != 1) ++stride;
+  return stride;
+}
+
 Film::Film(Device& device, Programs& programs, int width, int height, const PixelRect& crop, bool even)
     : device_(device),
       crop_(crop),
@@ -57,7 +63,7 @@ void Film::set_pixels(Params& params) const {
       rect_.height() == static_cast<int>(params.height) ? 0 : static_cast<uint>(rect_.height());
 }
 
-std::vector<PixelError> Film::errors() { return cropped(errors(pixels(), even_)); }
+std::vector<PixelError> Film::errors() { return errors(crop_.pixels(), even_); }
 
 void Film::save(FilmState& state) {
   if (complete_) complete_();
@@ -128,10 +134,7 @@ std::vector<Channel> Film::layers() {
 
 std::vector<PixelError> Film::errors(std::size_t most, bool even) {
   if (complete_) complete_();
-  // A stride that shares no factor with the width visits all columns.
-  std::size_t stride = (pixels() + most - 1) / most;
-  while (stride > 1 && std::gcd(stride, static_cast<std::size_t>(rect_.width())) != 1) ++stride;
-  const std::size_t count = (pixels() + stride - 1) / stride;
+  const std::size_t stride = look_stride(crop_, most), count = (crop_.pixels() + stride - 1) / stride;
   if (errors_capacity_ < count) {
     errors_ = device_.buffer(count * sizeof(PixelError), "errors of pixels");
     errors_capacity_ = count;
@@ -149,8 +152,11 @@ std::vector<PixelError> Film::errors(std::size_t most, bool even) {
   set_arguments(film_statistics_, pixels_, statistics_, found_, cl_uint2{{halves.x, halves.y}},
                 number(pixels()));
   device_.launch_pass(film_statistics_, pixels());
-  set_arguments(pixel_errors_, statistics_, errors_, found_, number(rect_.width()), number(rect_.height()),
-                number(stride), number(count), number(even));
+  const cl_uint2 size{{number(rect_.width()), number(rect_.height())}};
+  const cl_uint4 part{{number(crop_.x0 - rect_.x0), number(crop_.y0 - rect_.y0), number(crop_.width()),
+                       number(crop_.height())}};
+  set_arguments(pixel_errors_, statistics_, errors_, found_, size, part, number(stride), number(count),
+                number(even));
   device_.launch_pass(pixel_errors_, count);
   return device_.download<PixelError>(errors_, count);
 }

@@ -16,6 +16,10 @@ namespace causticl {
 double mean_of(const ExactSum& sum, std::uint64_t count);
 
 /// Adds the errors of the luminance of each pixel as channels (pixel_error_kinds).
+/// Of which pixels of a crop, row by row, a look at `most` of them tells the error: of number 0, of that many
+/// further, and so on. It shares no factor with the width, so that all columns are visited.
+std::size_t look_stride(const PixelRect& crop, std::size_t most);
+
 void append_errors(std::vector<Channel>& channels, const std::vector<PixelError>& errors);
 
 /// The channels of the layers of cl/film/light_passes.cl, all black.
@@ -71,8 +75,9 @@ class Film {
 
   /// The errors of every pixel of the crop. Waits for the queue.
   std::vector<PixelError> errors();
-  /// The same of `most` pixels at most, spread over the picture, but that noise is as if estimates were
-  /// independent: that is cheaper, and of a look while passes are still to come only its course counts.
+  /// The same of `most` pixels at most, spread over the crop (look_stride()), but that noise is as if
+  /// estimates were independent: that is cheaper, and of a look while passes are still to come only its
+  /// course counts.
   std::vector<PixelError> look(std::size_t most) { return errors(most, false); }
 
  private:

@@ -135,14 +135,20 @@ PassSet passes_of(const Json& ranges) {
   return passes;
 }
 
+std::uint64_t count_of(const Json& number) {
+  if (!number.is_number_unsigned()) throw std::out_of_range("count");
+  return number.get<std::uint64_t>();
+}
+
 /// All but the blocks. Throws where something is missing or makes no sense.
 FilmState state_of(const Json& header) {
   FilmState film;
   for (const auto& entry : header.at("identity"))
     film.identity.emplace_back(entry.at(0).get<std::string>(), entry.at(1).get<std::string>());
-  header.at("width").get_to(film.width);
-  header.at("height").get_to(film.height);
-  if (film.width > largest_edge || film.height > largest_edge) throw std::out_of_range("size");
+  const std::uint64_t width = count_of(header.at("width")), height = count_of(header.at("height"));
+  if (width > largest_edge || height > largest_edge) throw std::out_of_range("size");
+  film.width = static_cast<int>(width);
+  film.height = static_cast<int>(height);
   film.rect = rect_of(header.at("rect"), {0, 0, film.width, film.height});
   film.crop = rect_of(header.at("crop"), film.rect);
   if (film.rect != with_margin(film.crop, film.width, film.height)) throw std::out_of_range("rect");
@@ -151,9 +157,10 @@ FilmState state_of(const Json& header) {
   header.at("photons_stored").get_to(film.photons_stored);
   header.at("depends_on_history").get_to(film.depends_on_history);
   header.at("devices").get_to(film.devices);
-  header.at("photons").get_to(film.photons);
-  header.at("rays").get_to(film.rays);
+  film.photons = count_of(header.at("photons"));
+  film.rays = count_of(header.at("rays"));
   header.at("seconds").get_to(film.seconds);
+  if (!(film.seconds >= 0 && film.seconds < 1e12)) throw std::out_of_range("seconds");
   header.at("diagnostics").get_to(film.diagnostics);
   return film;
 }

@@ -21,7 +21,7 @@ IntegratorState Sppm::state() {
 void Sppm::go_on(const IntegratorState& state, std::uint32_t next_pass) {
   if (const auto pixels = state.find(pixels_block); pixels != state.end()) {
     if (pixels->second.size() != film_.pixels() * sizeof(SppmPixel))
-      throw UserError("the film does not hold the pixels of this picture; render it again");
+      throw UserError("--resume: the film does not hold the pixels of this picture; render it again");
     device_.queue().enqueueWriteBuffer(pixels_, CL_TRUE, 0, pixels->second.size(), pixels->second.data());
   }
   guide_.restore(state);

@@ -1,6 +1,7 @@
 #include "render/film_picture.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "accuracy/error_estimate.hpp"
 #include "base/spelling.hpp"
@@ -11,8 +12,22 @@
 namespace causticl {
 namespace {
 
-// As ConvergenceCheck::measure() looks at, of every crop.
+// As ConvergenceCheck::measure() looks at.
 constexpr std::size_t measure_pixels = 4096;
+
+/// Adds the errors of those pixels of a crop, by their number in the whole, that a look at the whole asks
+/// for.
+void add_errors(const std::vector<PixelError>& of_crop, const PixelRect& crop, const PixelRect& whole,
+                std::map<std::size_t, PixelError>& errors) {
+  const std::size_t stride = look_stride(whole, measure_pixels);
+  std::size_t i = 0;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x, ++i) {
+      const auto number = static_cast<std::size_t>(y - whole.y0) * static_cast<std::size_t>(whole.width()) +
+                          static_cast<std::size_t>(x - whole.x0);
+      if (number % stride == 0) errors[number] = of_crop[i];
+    }
+}
 
 /// Puts the numbers of a crop, `each` for every pixel, into their place among those of the whole.
 void paste(const std::vector<float>& from, const PixelRect& crop, std::size_t each, const PixelRect& whole,
@@ -35,15 +50,14 @@ RenderResult picture_of(const FilmMerger& films, Device& device, double confiden
   Picture& picture = result.picture;
   picture.width = whole.crop.width();
   picture.height = whole.crop.height();
-  std::vector<PixelError> errors;  // of some pixels
+  std::map<std::size_t, PixelError> errors;  // of some pixels
   films.for_each_crop([&](const FilmState& state) {
     KernelOptions kernels;
     kernels.effects = state.layers.empty() ? 0u : OUTPUT_LIGHT_PASSES;
     Programs programs(device, kernels, {"film"});
     Film film(device, programs, state.width, state.height, state.crop, state.even);
     film.restore(state);
-    const auto some = film.look(measure_pixels);
-    errors.insert(errors.end(), some.begin(), some.end());
+    add_errors(film.look(state.crop.pixels()), state.crop, whole.crop, errors);
     std::vector<Channel> channels;
     append_errors(channels, film.errors());
     if (film.has_layers())
@@ -62,7 +76,9 @@ RenderResult picture_of(const FilmMerger& films, Device& device, double confiden
   statistics.rays = whole.rays;
   statistics.seconds = statistics.pass_seconds = whole.seconds;
   statistics.confidence = confidence;
-  if (statistics.passes > 1) statistics.error = picture_error(errors, confidence);
+  std::vector<PixelError> looked_at;
+  for (const auto& [number, error] : errors) looked_at.push_back(error);
+  if (statistics.passes > 1) statistics.error = picture_error(looked_at, confidence);
   for (const auto& kind : diagnostic_kinds)
     if (const auto count = whole.diagnostics.find(kind.key); count != whole.diagnostics.end())
       statistics.diagnostics.*kind.count = count->second;

@@ -78,8 +78,15 @@ void FilmSession::restore(const std::vector<std::unique_ptr<RenderDevice>>& devi
     throw UserError("--pass-range " + text_of(range) + ": " + base_.depends_on_history.front());
   const std::string others = integrator.depends_on_other_pixels();
   if (options_.film.crop && !others.empty()) throw UserError("--crop " + text_of(base_.crop) + ": " + others);
-  if (earlier_)
+  if (earlier_) {
+    bool complete = earlier_->layers.empty() != options_.layers;
+    for (const auto& [block, bytes] : integrator.state())
+      complete = complete && earlier_->state.contains(block);
+    if (!complete)
+      throw UserError(options_.film.resume +
+                      ": does not hold what films of this render hold; render it again");
     for (const auto& device : devices) device->film.restore(*earlier_);
+  }
   if (range.begin > 0)
     integrator.go_on(earlier_ ? earlier_->state : IntegratorState{}, static_cast<std::uint32_t>(range.begin));
   // It is on the devices now.

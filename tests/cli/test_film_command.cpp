@@ -226,3 +226,62 @@ TEST_CASE("options of films that do not go together, and files that are none, ge
   check_runs(render({"--passes", "1", "--resume", "a.film", "-o", "b.pfm"}), folder);
   CHECK(bytes_of(folder.path("b.pfm")) == before);
 }
+
+TEST_CASE("files that are one by other names are not taken for two, nor are empty names for none") {
+  TemporaryFolder folder;
+  fs::create_directory(folder.path("below"));
+  fs::create_directory_symlink("below", folder.path("linked"));
+  fs::create_symlink("picture.pfm", folder.path("link.film"));
+  check_runs(global_render({"--pass-range", "1:2", "--film", "first.film", "-o", "a.pfm"}), folder);
+  check_runs(global_render({"--pass-range", "3:4", "--film", "second.film", "-o", "a.pfm"}), folder);
+  fs::create_hard_link(folder.path("first.film"), folder.path("first.pfm"));
+  const auto first = bytes_of(folder.path("first.film"));
+
+  const Words some = render({"--passes", "2"});
+  const auto with = [&](Words more) {
+    more.insert(more.begin(), some.begin(), some.end());
+    return more;
+  };
+  const std::string both = "cannot be both the film and a picture; expected two names";
+  check_refused(with({"--film", folder.path("picture.pfm"), "-o", "picture.pfm"}), folder, both);
+  check_refused(with({"--film", "link.film", "-o", "picture.pfm"}), folder, both);
+  check_refused(with({"--film", "linked/a.pfm", "-o", "below/a.pfm"}), folder, both);
+  check_refused(with({"--film", "a.film", "-o", "b.pfm", "--stats-json", "./a.film"}), folder,
+                "cannot be both the film and the statistics; expected two names");
+  check_refused({"merge", "first.film", "second.film", "-o", "first.pfm"}, folder,
+                "cannot be both a picture and a part; expected two names");
+  for (const char* option : {"--film", "--checkpoint", "--resume"})
+    check_refused(with({option, "", "-o", "a.pfm"}), folder,
+                  std::string(option) + ": expected FILE, found nothing");
+  CHECK(bytes_of(folder.path("first.film")) == first);
+
+  // The whole may take the place of a part.
+  check_runs({"merge", "first.film", "second.film", "-o", "whole.pfm", "--film", "first.film"}, folder);
+  CHECK(read_film(folder.path("first.film")).passes.count() == 4);
+}
+
+TEST_CASE("merged crops tell the error that the whole picture tells") {
+  TemporaryFolder folder;
+  const auto error_of = [&](const Words& words) {
+    Words loud = words;
+    std::erase(loud, "--quiet");
+    const Finished done = run(loud, folder);
+    CHECK(done.exit_code == 0);
+    const auto at = done.errors.rfind("error ");
+    REQUIRE(at != std::string::npos);
+    return done.errors.substr(at, done.errors.find('\n', at) - at);
+  };
+  for (const char* integrator : {"pt", "sppm"}) {
+    CAPTURE(integrator);
+    const auto with = [&](Words more) {
+      more.insert(more.end(),
+                  {"--integrator", integrator, integrator[0] == 'p' ? "--samples" : "--passes", "8"});
+      return render(more);
+    };
+    const std::string plain = error_of(with({"-o", "plain.pfm"}));
+    check_runs(with({"--crop", "0,0,32,11", "--film", "upper.film", "-o", "a.pfm"}), folder);
+    check_runs(with({"--crop", "0,11,17,24", "--film", "left.film", "-o", "a.pfm"}), folder);
+    check_runs(with({"--crop", "17,11,32,24", "--film", "right.film", "-o", "a.pfm"}), folder);
+    CHECK(error_of({"merge", "left.film", "upper.film", "right.film", "-o", "merged.pfm"}) == plain);
+  }
+}

@@ -17,10 +17,11 @@ std::vector<PixelError> device_errors(const std::vector<PixelStatistics>& film, 
   auto program = build_test_program("#include \"passes/pass_film.cl\"\n");
   auto pixels = test_device().upload(film, "film");
   const uint count = (static_cast<uint>(film.size()) + stride - 1) / stride;
+  const uint height = static_cast<uint>(film.size()) / width;
   auto errors = test_device().buffer(count * sizeof(PixelError), "errors");
   run_kernel(program, "pixel_errors", count, pixels, errors,
-             test_device().upload(std::vector<uint>{found}, "found"), width,
-             static_cast<uint>(film.size()) / width, stride, count, uint(low_discrepancy));
+             test_device().upload(std::vector<uint>{found}, "found"), cl_uint2{{width, height}},
+             cl_uint4{{0, 0, width, height}}, stride, count, uint(low_discrepancy));
   return test_device().download<PixelError>(errors, count);
 }
 
