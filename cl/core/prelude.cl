@@ -46,7 +46,7 @@ INLINE real max_component(real3 v) { return max(v.x, max(v.y, v.z)); }
 // Rounded after each product and sum, from left to right. dot() is the device's own, which GPUs fuse: where two kernels,
 // or one ray and a packet, must agree to the bit or on a sign, they take this.
 INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-// Rows of an affine map applied to a point and to a direction.
+// Of the rows of an affine map: the linear part of one, the image of the origin; the map of a direction and of a point.
 INLINE real3 affine_row(global const float4 *rows, uint row) {
   global const float *numbers = (global const float *)(rows + row);  // loads of whole vectors keep loops scalar
   return (real3)(numbers[0], numbers[1], numbers[2]);

@@ -23,7 +23,7 @@
   ROW(x, PLANES,  2, "planes",  IN_PATHS, BATCHED,                  UNBOUNDED,    "infinite planes") \
   ROW(x, DISKS,   3, "disks",   IN_PATHS, BATCHED,                  SHAPE_LEAVES, "disks") \
   ROW(x, BEZIER,  4, "curves",  IN_PATHS, SCALAR_SHAPE,             SHAPE_LEAVES, "revolved curves") \
-  ROW(x, CYLINDERS, 27, "cylinders", IN_PATHS, SCALAR_SHAPE,             SHAPE_LEAVES, "cylinders")
+  ROW(x, CYLINDERS, 27, "cylinders", IN_PATHS, SCALAR_SHAPE,        SHAPE_LEAVES, "cylinders")
 
 // Shapes that become triangles on upload: enumerator and name; type in scene files.
 #define TRIANGLE_SHAPE_TABLE(ROW, x) \

@@ -10,12 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_stream(const std::string& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
-}
-
 bool are_one(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;  // hard links as well

@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
   throw UserError(file + ": cannot be written: " + fault);
 }
 
-/// A device, pipe or terminal, which is written to as it is: there is nothing to replace.
-bool is_stream(const std::string& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 void write_stream(const std::string& file, const std::vector<std::string_view>& pieces) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0) fail(file, std::strerror(errno));
@@ -49,6 +42,12 @@ std::string keep_in(const fs::path& folder, const fs::path& file, const std::str
 }
 
 }  // namespace
+
+bool is_stream(const std::string& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 fs::path link_target(const std::string& file) {
   constexpr int most_links = 40;  // as Linux has it

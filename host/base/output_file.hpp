@@ -12,6 +12,9 @@ namespace causticl {
 /// folder of this name. Removes what killed processes left half written beside it.
 void check_writable(const std::string& file);
 
+/// Whether it is a device, pipe or terminal, which is written to as it is: there is nothing to replace.
+bool is_stream(const std::string& file);
+
 /// The file that `file` leads to by links, whether it exists or not. Throws UserError where they lead
 /// nowhere.
 std::filesystem::path link_target(const std::string& file);
